@@ -1,0 +1,49 @@
+// What a host hands over for one frame.
+#pragma once
+#include <vulkan/vulkan_core.h>
+
+#include <span>
+
+#include "umbrage/settings.hpp"
+#include "umbrage/types.hpp"
+
+namespace umbrage {
+
+enum class NormalEncoding : uint8_t {
+  none,             ///< No normals: cluster normal cones hold every direction.
+  octahedral_snorm, ///< World-space unit vector, octahedral map in the first two channels, -1…1.
+  xyz_unorm,        ///< World-space, first three channels, stored as 0.5 n + 0.5.
+  xyz_signed,       ///< World-space, first three channels of a signed format.
+};
+
+/// A camera whose depth buffer names the receivers. Projection is recovered from the matrices: either handedness,
+/// reversed, infinite or OpenGL depth, flipped y, jitter, orthographic. Depth images: single-sampled, aspect depth.
+struct CameraDesc {
+  CameraId id{1};
+  Mat4 view_from_world;                    ///< Rigid (rotation, translation, mirroring).
+  Mat4 clip_from_view;                     ///< Clip depth 0…w (Vulkan) unless opengl_depth.
+  bool opengl_depth = false;               ///< Clip depth is -w…w and the buffer holds 0.5 z/w + 0.5.
+  uint32_t width = 0, height = 0;          ///< Pixels of the images' top-left area that hold this camera's picture.
+  VkImageView depth = VK_NULL_HANDLE;
+  VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+  VkImageView normal = VK_NULL_HANDLE;     ///< Geometric normals; VK_NULL_HANDLE with NormalEncoding::none.
+  VkImageLayout normal_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  NormalEncoding normal_encoding = NormalEncoding::none;
+};
+
+struct FrameDesc {
+  uint64_t serial = 0;                     ///< Larger than that of the frame before; starts at 1.
+  uint64_t completed_serial = 0;           ///< The newest frame whose submission the device has finished; 0 = none.
+  FrameSettings settings;
+  std::span<const CameraDesc> cameras;     ///< One camera for now.
+  /// Stages that read the results after record_shadows.
+  VkPipelineStageFlags2 consumer_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+};
+
+/// What a shading shader needs. Valid from record_shadows of a frame until record_scene of the next.
+struct ShaderInterface {
+  VkDeviceAddress frame = 0;               ///< For umbrage_frame() in shaders/umbrage.glsl.
+  VkDescriptorSet set = VK_NULL_HANDLE;    ///< Bind it at the set number that UMBRAGE_SET names.
+};
+
+}  // namespace umbrage

@@ -1,0 +1,77 @@
+// Every variant of every technique is a combination of the fields below; a preset is a row of one table.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "umbrage/result.hpp"
+
+namespace umbrage {
+
+enum class ClusterBounds : uint8_t {
+  implicit_cell,  ///< World box of the cluster's cell.
+  explicit_bits,  ///< O9: three 10-bit number lines inside that box.
+};
+enum class LightAssignment : uint8_t {
+  hierarchy,    ///< Through the 32-way light tree.
+  brute_force,  ///< Every light against every cluster; same lists, for measurements.
+};
+enum class CasterCulling : uint8_t {
+  light_volume,  ///< Batches whose box meets the light's volume go to all of its views.
+  view_mask,     ///< And of its views only to those whose frustum the box meets (CFM, O6).
+};
+enum class Writer : uint8_t {
+  traditional,  ///< One render pass per view; the batches are the GPU's, the passes are the CPU's.
+  multi_draw,   ///< One render pass, one GPU-written multi-draw for everything.
+};
+
+/// Fixed for the life of a system: what sizes its memory.
+struct StaticSettings {
+  uint32_t frames_in_flight = 2;             ///< 1…4.
+  uint32_t budget_mib = 256;                 ///< Depth texels, 4…16384. Tables are reported apart.
+  uint32_t batch_triangles = 128;            ///< O4: at most this many a batch, 32…1024.
+  uint32_t max_cluster_light_pairs = 1 << 20;///< First size of the list; it grows to what the frames need.
+  uint32_t max_caster_pairs = 1 << 19;       ///< (batch, light) pairs drawn per round; more are worked off in further rounds.
+};
+
+/// May change every frame.
+struct FrameSettings {
+  ClusterBounds cluster_bounds = ClusterBounds::explicit_bits;
+  LightAssignment light_assignment = LightAssignment::hierarchy;
+  CasterCulling caster_culling = CasterCulling::view_mask;
+  Writer writer = Writer::multi_draw;
+  uint32_t min_resolution = 16;              ///< Texels along a map's side, a power of two, 16…1024.
+  uint32_t max_resolution = 1024;            ///< Likewise; at least min_resolution.
+};
+
+struct Settings {
+  StaticSettings fixed;
+  FrameSettings frame;
+};
+
+struct Preset {
+  std::string_view name;
+  std::string_view summary;  ///< One line.
+  Settings settings;
+};
+
+/// All presets; the first is "default".
+std::span<const Preset> presets();
+/// Unknown name: an error that lists the names there are.
+Result<Settings> preset(std::string_view name);
+
+struct SettingInfo {
+  std::string_view key;     ///< As in set_setting.
+  std::string_view values;  ///< "implicit_cell|explicit_bits", "16..1024" and so on.
+  std::string_view summary; ///< Unit, effect, trade-off; one line.
+};
+std::span<const SettingInfo> setting_infos();
+/// Sets one field by its name. Unknown keys and values out of range are refused with what is allowed; settings stay as they were.
+Result<void> set_setting(Settings& settings, std::string_view key, std::string_view value);
+/// The value of one field as set_setting takes it. Precondition: key is one of setting_infos().
+std::string get_setting(const Settings& settings, std::string_view key);
+/// Checks the fields against each other.
+Result<void> validate(const Settings& settings);
+
+}  // namespace umbrage

@@ -1,0 +1,52 @@
+// Statistics of a finished frame. They come back late, through memory that no frame in flight writes, and steer nothing
+// but the sizes of lists.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "umbrage/types.hpp"
+
+namespace umbrage {
+
+struct PassTime {
+  std::string_view name;  ///< As in docs/architecture.md; stable.
+  double gpu_ms = 0;
+};
+
+struct Statistics {
+  uint64_t serial = 0;                  ///< The frame these belong to; 0 = none finished yet.
+  std::span<const PassTime> passes;     ///< In order of execution. Valid until the next begin_frame.
+  uint32_t lights = 0;
+  uint32_t lights_visible = 0;          ///< With at least one cluster.
+  uint64_t clusters = 0;                ///< Occupied.
+  uint64_t cluster_light_pairs = 0;
+  uint32_t shadow_maps = 0;             ///< Maps drawn (a light has one with fixed-cubes).
+  uint32_t shadow_views = 0;            ///< Their faces.
+  uint32_t map_resolution = 0;          ///< Texels along a side, fixed-cubes.
+  uint64_t texels_allocated = 0;
+  uint64_t caster_pairs = 0;            ///< (batch, light) pairs.
+  uint64_t batches_drawn = 0;           ///< (batch, view) pairs.
+  uint64_t triangles_drawn = 0;         ///< (triangle, view) pairs.
+  uint64_t casters = 0;                 ///< Batches of all instances.
+  uint64_t shadow_memory_bytes = 0;     ///< Depth texels.
+  uint64_t table_memory_bytes = 0;      ///< Everything else on the device that the system holds.
+  uint64_t overflows = 0;               ///< Lists that were too short this frame, each handled as its degradation says.
+  uint32_t lights_degraded = 0;
+  double cpu_record_ms = 0;             ///< begin_frame + record_scene + record_shadows.
+};
+
+enum class Degradation : uint8_t {
+  none,
+  coarser,          ///< Resolution below what was asked for: the budget is short.
+  no_map,           ///< No memory for even the smallest map: casts no shadow.
+  casters_missing,  ///< Its casters did not fit the rounds that were recorded; right from the next frame on.
+};
+
+struct LightStatus {
+  LightId light;
+  Degradation reason = Degradation::none;
+  uint64_t missing_bytes = 0;           ///< Memory that would cure it.
+};
+
+}  // namespace umbrage
