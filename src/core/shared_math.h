@@ -1,5 +1,5 @@
 // Lets one source be C++ and GLSL: a `*.shared.h` includes this first and writes its functions and structs with the
-// macros below. C++ gets namespace umbrage::shared on glm types; GLSL gets plain functions. Structs are laid out scalar,
+// macros below. C++ gets namespace umbrage::shared on glm types, GLSL gets plain functions. Structs are laid out scalar,
 // buffer addresses are uint64_t, there are no swizzles, and vectors are built by explicit constructors.
 #ifndef UMBRAGE_CORE_SHARED_MATH_H
 #define UMBRAGE_CORE_SHARED_MATH_H

@@ -1,93 +1,18 @@
-// The geometry of shadow views, the same in C++ and GLSL: cube faces, spot and ortho frames, depth keys, bias pieces,
-// solid angles. A view's coordinates of a point are (sc, tc, depth): right, down and forward from the light. Texel
-// (i, j) of a view with `resolution` texels a side has its centre at s = (i + 0.5) / resolution * 2 - 1, t likewise from j.
+// The geometry of shadow views besides cube faces, the same in C++ and GLSL: spot and ortho frames, depth keys, bias
+// pieces, solid angles. A view's coordinates of a point are (sc, tc, depth): right, down and forward from the light.
 #ifndef UMBRAGE_VIEWS_VIEW_MATH_SHARED_H
 #define UMBRAGE_VIEWS_VIEW_MATH_SHARED_H
 
 #include "core/shared_math.h"
+#include "views/cube_face.shared.h"
 
 UMB_NAMESPACE_BEGIN
 
-UMB_CONST float pi = 3.14159265358979f;
-UMB_CONST uint cube_face_count = 6u;
+UMB_CONST float Pi = 3.14159265358979f;
 /// A spot whose outer half-angle is at most this (65 degrees) is one perspective view, a wider one is a cube.
-UMB_CONST float one_view_max_outer_rad = 1.13446401f;
+UMB_CONST float OneViewMaxOuterRad = 1.13446401f;
 
-// --- Cube faces: 0…5 = +X, -X, +Y, -Y, +Z, -Z, oriented as the cube maps of Vulkan and OpenGL -------------------------
-
-/// The face that a direction from the light falls on. Ties go to x before y before z, and a zero counts as positive.
-UMB_FN uint face_of_direction(vec3 direction) {
-  float x = abs(direction.x);
-  float y = abs(direction.y);
-  float z = abs(direction.z);
-  if (x >= y && x >= z) return direction.x < 0.0f ? 1u : 0u;
-  if (y >= z) return direction.y < 0.0f ? 3u : 2u;
-  return direction.z < 0.0f ? 5u : 4u;
-}
-
-/// (sc, tc, axis depth) of a point relative to the light. No divide: s = sc / depth, t = tc / depth where depth > 0.
-UMB_FN vec3 face_coordinates(uint face, vec3 relative) {
-  if (face == 0u) return vec3(-relative.z, -relative.y, relative.x);
-  if (face == 1u) return vec3(relative.z, -relative.y, -relative.x);
-  if (face == 2u) return vec3(relative.x, relative.z, relative.y);
-  if (face == 3u) return vec3(relative.x, -relative.z, -relative.y);
-  if (face == 4u) return vec3(relative.x, -relative.y, relative.z);
-  return vec3(-relative.x, -relative.y, -relative.z);
-}
-
-/// The direction of (s, t) on a face; its component along the face's axis is +1 or -1. Inverse of face_coordinates.
-UMB_FN vec3 face_direction(uint face, float s, float t) {
-  if (face == 0u) return vec3(1.0f, -t, -s);
-  if (face == 1u) return vec3(-1.0f, -t, s);
-  if (face == 2u) return vec3(s, 1.0f, t);
-  if (face == 3u) return vec3(s, -1.0f, -t);
-  if (face == 4u) return vec3(s, -t, 1.0f);
-  return vec3(-s, -t, -1.0f);
-}
-
-/// face_coordinates as a matrix: view_from_world of a light at the origin. Like every frame here it mirrors
-/// (determinant -1), because cube maps are left-handed images.
-UMB_FN mat3 face_rotation(uint face) {
-  return mat3(face_coordinates(face, vec3(1.0f, 0.0f, 0.0f)), face_coordinates(face, vec3(0.0f, 1.0f, 0.0f)),
-              face_coordinates(face, vec3(0.0f, 0.0f, 1.0f)));
-}
-
-/// A place on the cube map.
-struct CubeTap {
-  uint face;
-  float s;
-  float t;
-};
-UMB_ASSERT_SIZE(CubeTap, 12);
-
-/// Where a tap at (s, t) of a face's plane lies on the cube map: itself while |s|, |t| <= 1, else on the neighbour that
-/// its direction meets. The direction of the result is face_direction(tap.face, tap.s, tap.t).
-UMB_FN CubeTap cube_tap(uint face, float s, float t) {
-  CubeTap tap;
-  tap.face = face;
-  tap.s = s;
-  tap.t = t;
-  if (max(abs(s), abs(t)) <= 1.0f) return tap;
-  vec3 direction = face_direction(face, s, t);
-  tap.face = face_of_direction(direction);
-  vec3 coordinates = face_coordinates(tap.face, direction);
-  tap.s = coordinates.x / coordinates.z;
-  tap.t = coordinates.y / coordinates.z;
-  return tap;
-}
-
-// --- Texels ---------------------------------------------------------------------------------------------------------
-
-/// The texel that holds s (or t), clamped to the view; a NaN gives texel 0.
-UMB_FN uint texel_of(float s, uint resolution) {
-  float position = (s * 0.5f + 0.5f) * float(resolution);
-  return position > 0.0f ? min(uint(min(position, 16777216.0f)), resolution - 1u) : 0u;
-}
-
-/// s (or t) of a texel's centre.
-UMB_FN float texel_centre(uint texel, uint resolution) {
-  return (float(texel) + 0.5f) / float(resolution) * 2.0f - 1.0f;
-}
+// --- Texels and solid angles ----------------------------------------------------------------------------------------
 
 /// World size of a texel of a perspective view at an axis depth; tangent = 1 on cube faces.
 UMB_FN float texel_size_m(float depth_m, float tangent, uint resolution) {
@@ -104,10 +29,10 @@ UMB_FN float texel_solid_angle(float s, float t, uint resolution) {
 
 /// Solid angle of a sphere seen from a distance to its centre; the full sphere from within.
 UMB_FN float sphere_solid_angle(float radius, float distance_m) {
-  if (distance_m <= radius) return 4.0f * pi;
+  if (distance_m <= radius) return 4.0f * Pi;
   float ratio = radius / distance_m;
   float sine_squared = ratio * ratio;
-  return 2.0f * pi * sine_squared / (1.0f + sqrt(1.0f - sine_squared));
+  return 2.0f * Pi * sine_squared / (1.0f + sqrt(1.0f - sine_squared));
 }
 
 // --- Spot and ortho frames ------------------------------------------------------------------------------------------
@@ -126,10 +51,10 @@ UMB_FN mat3 view_rotation(vec3 direction) {
   vec3 right = vec3(1.0f, 0.0f, 0.0f);
   if (abs(forward.x) + abs(forward.z) > 1e-5f) right = normalize(vec3(forward.z, 0.0f, -forward.x));
   vec3 down = normalize(cross(right, forward));
-  return transpose(mat3(right, down, forward));
+  return transpose(mat3(cross(forward, down), down, forward));
 }
 
-UMB_FN bool spot_is_one_view(float outer_cone_rad) { return outer_cone_rad <= one_view_max_outer_rad; }
+UMB_FN bool spot_is_one_view(float outer_cone_rad) { return outer_cone_rad <= OneViewMaxOuterRad; }
 
 /// Tangent of a spot view's half-angle: the cone plus `guard` texels on every side, so that filter taps of a receiver on
 /// the cone's rim stay inside. resolution > 2 * guard.
@@ -193,8 +118,8 @@ UMB_FN float depth_of_key_perspective(float near_m, uint key) { return near_m / 
 /// Largest step between neighbouring perspective keys at a depth (24 significant bits), whatever the near plane.
 UMB_FN float depth_quantum_perspective(float depth_m) { return depth_m * 1.1920929e-7f; }
 
-/// Quantum of an ortho view's keys: the power of two with which depths of up to max_abs_depth fit 24 bits and a sign, the
-/// precision of the float depths that go in.
+/// Quantum of an ortho view's keys: the power of two with which depths of up to max_abs_depth fit 24 bits and a sign,
+/// the precision of the float depths that go in.
 UMB_FN float ortho_depth_quantum(float max_abs_depth) {
   float power = uintBitsToFloat((floatBitsToUint(max(max_abs_depth, 1e-6f)) + 0x7fffffu) & 0x7f800000u);
   return power * 5.9604645e-8f;
@@ -212,7 +137,7 @@ UMB_FN float depth_of_key_ortho(uint key, float quantum_m) {
 
 /// Axis depth at which a direction (axis component 1: face_direction, or (s, t, 1) of a spot in its own frame) meets the
 /// receiver's tangent plane: n.p / n.d. Where it meets the plane beyond four times the receiver's depth or not at all
-/// (past the plane's horizon) there is nothing to compare with, and the receiver's own depth along the direction is taken.
+/// (past the plane's horizon) there is nothing to compare with: the receiver's own depth along the direction is taken.
 UMB_FN float receiver_plane_depth(vec3 normal, vec3 relative, vec3 direction) {
   float own_depth = dot(relative, direction) / dot(direction, direction);
   float plane_distance = dot(normal, relative);
