@@ -1,5 +1,5 @@
 # Targets with the project's flags. umbrage_stage() makes one object library of a folder of src/ and says which folders
-# it may include from; tests/unit/check_layers.cmake holds the sources against the same order.
+# it may include from; tests/embedding/check_layers.cmake holds the sources to it.
 
 function(umbrage_flags target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -10,6 +10,14 @@ function(umbrage_flags target)
   if(UMBRAGE_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${UMBRAGE_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${UMBRAGE_SANITIZE})
+  endif()
+endfunction()
+
+# umbrage_portable(target): an executable in bin/ with the C++ runtime inside, to be carried to other machines.
+function(umbrage_portable target)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  if(NOT UMBRAGE_SANITIZE)
+    target_link_options(${target} PRIVATE -static-libstdc++ -static-libgcc)
   endif()
 endfunction()
 
@@ -27,4 +35,6 @@ function(umbrage_stage name)
     umbrage_shaders(umbrage_${name} ${arg_SHADERS})
   endif()
   set_property(GLOBAL APPEND PROPERTY UMBRAGE_STAGES umbrage_${name})
+  string(JOIN " " depends ${arg_DEPENDS})
+  set_property(GLOBAL APPEND PROPERTY UMBRAGE_LAYERS "${name}: ${depends}")
 endfunction()
