@@ -1,0 +1,12 @@
+# The program needs nothing of another machine but its C library.
+cmake_minimum_required(VERSION 3.25)
+execute_process(COMMAND ${READELF} --dynamic --wide ${PROGRAM} OUTPUT_VARIABLE entries COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*" needed "${entries}")
+if(NOT needed)
+  message(FATAL_ERROR "${PROGRAM}: readelf listed no needed library")
+endif()
+foreach(entry IN LISTS needed)
+  if(NOT entry MATCHES "\\[(libc|libm|libdl|libpthread|librt|ld-linux-x86-64)\\.so\\.[0-9]\\]")
+    message(FATAL_ERROR "${PROGRAM} needs more than the C library: ${entry}")
+  endif()
+endforeach()

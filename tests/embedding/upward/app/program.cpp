@@ -1,0 +1,2 @@
+// A program that reaches past the public headers.
+#include "core/low.hpp"

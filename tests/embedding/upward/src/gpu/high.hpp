@@ -1,0 +1,3 @@
+// The folder above.
+#pragma once
+#include "core/low.hpp"
