@@ -27,6 +27,9 @@ function(umbrage_stage name)
   add_library(umbrage_${name} OBJECT ${arg_SOURCES})
   umbrage_flags(umbrage_${name})
   set_target_properties(umbrage_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)  # clang-tidy knows no such option
+    target_compile_options(umbrage_${name} PRIVATE -fno-gnu-unique)    # umbrage_archive() could not make those local
+  endif()
   target_include_directories(umbrage_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src PUBLIC ${PROJECT_SOURCE_DIR}/include)
   target_include_directories(umbrage_${name} SYSTEM PRIVATE ${Vulkan_INCLUDE_DIRS})
   target_compile_definitions(umbrage_${name} PRIVATE VK_NO_PROTOTYPES)
