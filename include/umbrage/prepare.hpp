@@ -19,7 +19,8 @@ struct PrepareSettings {
 /// Positions (mesh space, finite), triangle-list indices (< positions.size()) and submeshes as in MeshDesc. A batch never
 /// spans two submeshes. Triangles with a repeated index or without area stay (they cost nothing and keep counts true).
 /// Deterministic: the same input gives the same bytes. The bytes are versioned and carry a hash of the input.
-/// Errors: invalid_argument (index out of range, not finite, counts not multiples of 3, submeshes that overlap), out_of_memory.
+/// Errors: invalid_argument (index out of range, not finite, counts not multiples of 3, submeshes that overlap or leave out
+/// indices, settings out of range), out_of_memory.
 Result<std::vector<std::byte>> prepare_mesh(std::span<const Vec3> positions, std::span<const uint32_t> indices,
                                             std::span<const Submesh> submeshes, const PrepareSettings& settings);
 
@@ -44,9 +45,13 @@ struct PreparedMesh {
   std::span<const uint8_t> local_indices;   ///< Three a triangle, or empty when wide.
   std::span<const uint16_t> wide_indices;   ///< Likewise for batches of more than 256 vertices.
   uint64_t key = 0;                         ///< prepare_key of what it was made from.
+  PrepareSettings settings;                 ///< Likewise; wide when batch_vertices > 256.
+  uint32_t mesh_vertex_count = 0;           ///< Of that mesh; every element of vertices is below it.
+  uint32_t submesh_count = 0;               ///< Of that mesh, 1 when it had none; every batch's submesh is below it.
 };
 
-/// Checks the bytes wholly (sizes, ranges, version) before handing out a view; never reads beyond them.
+/// Checks the bytes wholly (sizes, ranges, version, checksum) before handing out a view; never reads beyond them. They lie
+/// at a multiple of 4 in memory. Errors: invalid_argument.
 Result<PreparedMesh> open_prepared(std::span<const std::byte> bytes);
 
 }  // namespace umbrage
