@@ -1,6 +1,6 @@
-// Axis-aligned boxes projected onto the faces of a cube map: which faces, rectangles and tiles a box covers, and at which
-// depths. Free of Vulkan and of any ShadowSystem, thread-safe. shaders/cube_projection.glsl is the same code for shaders
-// (umbrage_face_mask, umbrage_clip_box_to_face, …); docs/cube-projection.md derives it. After Olsson et al. 2014, poster.
+// Axis-aligned boxes projected onto a cube map (after Olsson et al. 2014, poster): the faces, rectangles, tiles and
+// depths that a box covers. Needs no Vulkan and no ShadowSystem; thread-safe. shaders/cube_projection.glsl is the same
+// code for shaders (umbrage_face_mask, umbrage_clip_box_to_face, …); docs/cube-projection.md derives it.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -25,8 +25,8 @@ struct CubeTileRect {
   uint32_t x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;
 };
 
-// Boxes are closed, finite, and relative to the light: subtract its position from both corners. A box with any min > max
-// or NaN is empty: no face sees it.
+// Boxes are closed, finite, and relative to the light: subtract its position from both corners. A box with any min >
+// max or NaN is empty: no face sees it.
 
 /// Bit f is set when face f sees the box; exact.
 uint32_t cube_face_mask(const Aabb& relative);
@@ -34,12 +34,12 @@ uint32_t cube_face_mask(const Aabb& relative);
 /// Nothing when the face does not see the box, exactly as in cube_face_mask.
 std::optional<CubeFaceProjection> project_to_cube_face(const Aabb& relative, CubeFace);
 
-/// The tiles that a rectangle touches on a face of tiles × tiles; tiles > 0. Tile i is half-open, [i, i + 1) / tiles of the
-/// side, but the last one is closed.
+/// The tiles that a rectangle touches on a face of tiles × tiles; tiles > 0. Tile i is half-open, [i, i + 1) / tiles
+/// of the side, but the last one is closed.
 CubeTileRect cube_tile_rect(const CubeFaceProjection&, uint32_t tiles);
 
-/// Sets bit x of rows[y] for the tiles that the box's silhouette touches (never more than its rectangle's) and clears the
-/// others; the face has rows.size() × rows.size() tiles, 1…64.
+/// Sets bit x of rows[y] for the tiles that the box's silhouette touches (never more than its rectangle's) and clears
+/// the others; the face has rows.size() × rows.size() tiles, 1…64.
 void cube_tile_mask(const Aabb& relative, CubeFace, std::span<uint64_t> rows);
 
 /// Grows a box of receivers, so that its projection holds every filter tap up to filter_texels away in s and t, across

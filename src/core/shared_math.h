@@ -1,6 +1,6 @@
 // Lets one source be C++ and GLSL: a `*.shared.h` includes this first and writes its functions and structs with the
-// macros below. C++ gets namespace umbrage::shared on glm types, GLSL gets plain functions. Structs are laid out scalar,
-// buffer addresses are uint64_t, there are no swizzles, and vectors are built by explicit constructors.
+// macros below. C++ gets namespace umbrage::shared on glm types, GLSL gets plain functions. Structs are laid out
+// scalar, buffer addresses are uint64_t, there are no swizzles, and vectors are built by explicit constructors.
 #ifndef UMBRAGE_CORE_SHARED_MATH_H
 #define UMBRAGE_CORE_SHARED_MATH_H
 
@@ -24,10 +24,11 @@ using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4;
 using glm::mat3, glm::mat4, glm::uint, glm::vec2, glm::vec3, glm::vec4;
 
 using glm::abs, glm::acos, glm::asin, glm::atan, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::distance, glm::dot;
-using glm::exp, glm::exp2, glm::floor, glm::fract, glm::inversesqrt, glm::isinf, glm::isnan, glm::length, glm::log;
-using glm::log2, glm::max, glm::min, glm::mix, glm::mod, glm::normalize, glm::pow, glm::round, glm::sign, glm::sin;
-using glm::smoothstep, glm::sqrt, glm::step, glm::tan, glm::transpose, glm::trunc;
 using glm::all, glm::any, glm::equal, glm::greaterThan, glm::greaterThanEqual, glm::lessThan, glm::lessThanEqual;
+using glm::exp, glm::exp2, glm::floor, glm::fract, glm::inversesqrt, glm::isinf, glm::isnan, glm::length, glm::log;
+using glm::log2, glm::max, glm::min, glm::mix, glm::mod, glm::normalize, glm::pow, glm::round, glm::roundEven,
+    glm::sign, glm::sin;
+using glm::smoothstep, glm::sqrt, glm::step, glm::tan, glm::transpose, glm::trunc;
 
 inline uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
 inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }

@@ -1,6 +1,6 @@
-// The faces of a cube map around a light, the same in C++ and GLSL: 0…5 = +X, -X, +Y, -Y, +Z, -Z, oriented as the cube
-// maps of Vulkan and OpenGL. A point's face coordinates are (sc, tc, depth): right and down in the face's image, and the
-// distance along its axis. Texel (i, j) has its centre at s = (i + 0.5) / resolution * 2 - 1, t likewise from j.
+// The faces of a cube map around a light, in C++ and GLSL: 0…5 = +X, -X, +Y, -Y, +Z, -Z, oriented as in Vulkan and
+// OpenGL. A point's face coordinates are (sc, tc, depth): right and down in the face's image, and the distance along
+// its axis. Texel (i, j) has its centre at s = (i + 0.5) / resolution * 2 - 1, and t likewise from j.
 #ifndef UMBRAGE_VIEWS_CUBE_FACE_SHARED_H
 #define UMBRAGE_VIEWS_CUBE_FACE_SHARED_H
 

@@ -1,5 +1,5 @@
-// Axis-aligned boxes projected onto the faces of a cube map (Olsson et al. 2014, poster, listing 1, for all six faces and
-// with its errors mended; docs/cube-projection.md has the derivation). Boxes are closed and relative to the light.
+// Axis-aligned boxes projected onto the faces of a cube map (Olsson et al. 2014, poster, listing 1, for all six faces
+// and with its errors mended; derived in docs/cube-projection.md). Boxes are closed and relative to the light.
 #ifndef UMBRAGE_VIEWS_CUBE_PROJECTION_SHARED_H
 #define UMBRAGE_VIEWS_CUBE_PROJECTION_SHARED_H
 
@@ -8,8 +8,8 @@
 
 UMB_NAMESPACE_BEGIN
 
-/// Rectangles grow by this much in s and t on every side: more than the divisions of Vulkan (2.5 units in the last place
-/// each) can move a point and its box apart.
+/// Rectangles grow by this much in s and t on every side: more than the divisions of Vulkan (2.5 units in the last
+/// place each) can move a point and its box apart.
 UMB_CONST float CubeProjectionSlack = 2e-6f;
 /// Tiles along a face's side, at most; a row of tiles is a 64-bit mask.
 UMB_CONST uint MaxCubeTiles = 64u;
@@ -75,10 +75,14 @@ UMB_FN bool clip_box_to_face(uint face, vec3 box_min, vec3 box_max, UMB_OUT(Face
 UMB_FN vec2 quotient_range(float lo, float hi, float depth_min, float depth_max) {
   float first = -1.0f;
   float last = 1.0f;
-  if (lo >= 0.0f) first = lo / depth_max;
-  else if (-lo < depth_min) first = lo / depth_min;
-  if (hi <= 0.0f) last = hi / depth_max;
-  else if (hi < depth_min) last = hi / depth_min;
+  if (lo >= 0.0f)
+    first = lo / depth_max;
+  else if (-lo < depth_min)
+    first = lo / depth_min;
+  if (hi <= 0.0f)
+    last = hi / depth_max;
+  else if (hi < depth_min)
+    last = hi / depth_min;
   return vec2(max(first - CubeProjectionSlack, -1.0f), min(last + CubeProjectionSlack, 1.0f));
 }
 
@@ -100,8 +104,8 @@ UMB_FN bool project_box_to_face(uint face, vec3 box_min, vec3 box_max, UMB_OUT(F
   return true;
 }
 
-/// The tiles that a rectangle touches. Tile i is [i, i + 1) / tiles of the side, the last one closed: a rectangle without
-/// extent has exactly one tile, and one that ends on a border has the tile that the border's points belong to.
+/// The tiles that a rectangle touches. Tile i is [i, i + 1) / tiles of the side, the last one closed. Half-open tiles
+/// and closed rectangles: what ends on a border has the tile that the border's points belong to, and a point has one.
 UMB_FN TileRect tile_rect(FaceRect rect, uint tiles) {
   TileRect result;
   result.begin = uvec2(texel_of(rect.min_st.x, tiles), texel_of(rect.min_st.y, tiles));
@@ -118,10 +122,14 @@ UMB_FN uvec2 tile_row_span(FaceBox box, uint row, uint tiles) {
   float depth_min = box.lo.z;
   float depth_max = box.hi.z;
   // tc >= t_begin * depth must hold for the largest tc, and tc <= t_end * depth for the smallest.
-  if (t_begin > 0.0f) depth_max = min(depth_max, box.hi.y / t_begin);
-  else if (box.hi.y < 0.0f) depth_min = max(depth_min, box.hi.y / t_begin);
-  if (t_end < 0.0f) depth_max = min(depth_max, box.lo.y / t_end);
-  else if (box.lo.y > 0.0f) depth_min = max(depth_min, box.lo.y / t_end);
+  if (t_begin > 0.0f)
+    depth_max = min(depth_max, box.hi.y / t_begin);
+  else if (box.hi.y < 0.0f)
+    depth_min = max(depth_min, box.hi.y / t_begin);
+  if (t_end < 0.0f)
+    depth_max = min(depth_max, box.lo.y / t_end);
+  else if (box.lo.y > 0.0f)
+    depth_min = max(depth_min, box.lo.y / t_end);
   if (depth_max <= 0.0f || depth_min > depth_max) return uvec2(0u, 0u);
   vec2 s = quotient_range(box.lo.x, box.hi.x, depth_min, depth_max);
   return uvec2(texel_of(s.x, tiles), texel_of(s.y, tiles) + 1u);

@@ -56,8 +56,8 @@ UMB_FN mat3 view_rotation(vec3 direction) {
 
 UMB_FN bool spot_is_one_view(float outer_cone_rad) { return outer_cone_rad <= OneViewMaxOuterRad; }
 
-/// Tangent of a spot view's half-angle: the cone plus `guard` texels on every side, so that filter taps of a receiver on
-/// the cone's rim stay inside. resolution > 2 * guard.
+/// Tangent of a spot view's half-angle: the cone plus `guard` texels on every side, so that filter taps of a receiver
+/// on the cone's rim stay inside. resolution > 2 * guard.
 UMB_FN float spot_tangent(float outer_cone_rad, uint resolution, uint guard) {
   return tan(outer_cone_rad) * float(resolution) / float(resolution - 2u * guard);
 }
@@ -108,9 +108,7 @@ UMB_FN vec4 clip_ortho(vec3 coordinates, OrthoFit fit, uint resolution) {
 // --- Depth keys: larger is nearer, 0 is clear -----------------------------------------------------------------------
 
 /// The bits of near / depth; what lies nearer than near_m counts as at near_m. depth_m > 0.
-UMB_FN uint depth_key_perspective(float near_m, float depth_m) {
-  return floatBitsToUint(min(near_m / depth_m, 1.0f));
-}
+UMB_FN uint depth_key_perspective(float near_m, float depth_m) { return floatBitsToUint(min(near_m / depth_m, 1.0f)); }
 
 /// Axis depth of a key that is not clear.
 UMB_FN float depth_of_key_perspective(float near_m, uint key) { return near_m / uintBitsToFloat(key); }
@@ -127,17 +125,15 @@ UMB_FN float ortho_depth_quantum(float max_abs_depth) {
 
 /// Absolute depth in whole quanta below 2^30, so that depth 0 has room on both sides; never 0.
 UMB_FN uint depth_key_ortho(float depth_m, float quantum_m) {
-  float steps = clamp(floor(depth_m / quantum_m + 0.5f), -1073741760.0f, 1073741760.0f);
+  float steps = roundEven(clamp(depth_m / quantum_m, -1073741760.0f, 1073741760.0f));
   return uint(0x40000000 - int(steps));
 }
 
-UMB_FN float depth_of_key_ortho(uint key, float quantum_m) {
-  return float(0x40000000 - int(key)) * quantum_m;
-}
+UMB_FN float depth_of_key_ortho(uint key, float quantum_m) { return float(0x40000000 - int(key)) * quantum_m; }
 
-/// Axis depth at which a direction (axis component 1: face_direction, or (s, t, 1) of a spot in its own frame) meets the
-/// receiver's tangent plane: n.p / n.d. Where it meets the plane beyond four times the receiver's depth or not at all
-/// (past the plane's horizon) there is nothing to compare with: the receiver's own depth along the direction is taken.
+/// Axis depth at which a direction (axis component 1: face_direction, or (s, t, 1) of a spot in its own frame) meets
+/// the receiver's tangent plane: n.p / n.d. Where it meets the plane beyond four times the receiver's depth or not at
+/// all (past the plane's horizon) there is nothing to compare with, and its own depth along the direction is taken.
 UMB_FN float receiver_plane_depth(vec3 normal, vec3 relative, vec3 direction) {
   float own_depth = dot(relative, direction) / dot(direction, direction);
   float plane_distance = dot(normal, relative);
