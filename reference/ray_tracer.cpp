@@ -34,7 +34,7 @@ Ray shadow_ray(const Light& light, glm::vec3 start) {
 /// Eight shadow rays in Embree's layout with the pixels they belong to.
 class ShadowPacket {
  public:
-  ShadowPacket(RTCScene scene, std::span<uint8_t> result) : scene_(scene), result_(result) {}
+  ShadowPacket(RTCScene scene, std::span<uint8_t> result) : result_(result), scene_(scene) {}
 
   void add(const Ray& ray, size_t pixel) {
     const uint32_t i = count_++;
@@ -58,10 +58,10 @@ class ShadowPacket {
   }
 
  private:
-  RTCScene scene_;
-  std::span<uint8_t> result_;
   RTCRay8 rays_{};
   size_t pixels_[packet_size] = {};
+  std::span<uint8_t> result_;
+  RTCScene scene_;
   uint32_t count_ = 0;
 };
 
