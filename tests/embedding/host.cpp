@@ -80,10 +80,10 @@ bool allocate_buffer(VkInstance instance, VkPhysicalDevice physical_device, VkDe
   allocation_info.usage = VMA_MEMORY_USAGE_AUTO;
   VkBuffer buffer = VK_NULL_HANDLE;
   VmaAllocation allocation = VK_NULL_HANDLE;
-  const bool made = vmaCreateBuffer(allocator, &buffer_info, &allocation_info, &buffer, &allocation, nullptr) == VK_SUCCESS;
-  if (made) vmaDestroyBuffer(allocator, buffer, allocation);
+  const VkResult made = vmaCreateBuffer(allocator, &buffer_info, &allocation_info, &buffer, &allocation, nullptr);
+  if (made == VK_SUCCESS) vmaDestroyBuffer(allocator, buffer, allocation);
   vmaDestroyAllocator(allocator);
-  return made;
+  return made == VK_SUCCESS;
 }
 #endif
 
