@@ -1,0 +1,213 @@
+// Clusters: 32×32-pixel tiles × depth slices (O1), their boxes (O9), normal cones and light lists, and the record of a frame
+// from which a shading shader reaches them.
+#ifndef UMBRAGE_CLUSTERS_TYPES_SHARED_H
+#define UMBRAGE_CLUSTERS_TYPES_SHARED_H
+#include "scene/scene_types.shared.h"
+
+UMB_NAMESPACE_BEGIN
+
+/// A camera, whatever its projection. The point seen at normalised device coordinates (x, y) and view depth t is
+/// origin + x origin_x + y origin_y + t (ray + x ray_x + y ray_y).
+struct CameraRecord {
+  vec3 origin, origin_x, origin_y;
+  vec3 ray, ray_x, ray_y;
+  vec4 depth_to_t;         // t = (x + y d) / (z + w d) for a depth-buffer value d
+  vec4 t_row;              // t = xyz · world + w
+  mat4 clip_from_world;
+  uvec2 size;              // pixels
+  uvec2 tiles;
+  float slice_origin;      // t of the first slice's near side
+  float slice_scale;       // slices per log2 of t (perspective) or per unit of t (orthographic)
+  uint slices_are_logarithmic;
+  uint slice_count;
+};
+UMB_ASSERT_SIZE(CameraRecord, 200);
+
+/// 32 slices of a tile: which are occupied, and the number of the first one's cluster.
+struct ClusterWord {
+  uint occupied;
+  uint first;
+};
+UMB_ASSERT_SIZE(ClusterWord, 8);
+
+/// A cluster's lights: cluster_lights[first … first + count-1]. first = NoIndex: all lights, in the order of light_order.
+struct ClusterList {
+  uint first;
+  uint count;
+};
+UMB_ASSERT_SIZE(ClusterList, 8);
+
+/// Everything that a lookup needs, at one address.
+struct FrameRecord {
+  CameraRecord camera;
+  uint64_t lights;           // LightRecord
+  uint64_t light_order;      // slots of the lights alive, directional ones first
+  uint64_t cluster_words;    // ClusterWord [tile][SliceWords]
+  uint64_t cluster_cells;    // tile * MaxSlices + slice
+  uint64_t cluster_boxes;    // Box
+  uint64_t cluster_cones;    // vec4: axis, cosine of the half-angle
+  uint64_t cluster_lists;    // ClusterList
+  uint64_t cluster_lights;   // slots
+  uint64_t counters;         // FrameCounters
+  uint64_t views;            // ShadowView
+  uint light_count;          // alive
+  uint directional_count;
+  uint cluster_capacity;
+  uint pair_capacity;
+  uint atlas_columns;        // tiles along the atlas' side
+  uint atlas_resolution;     // texels along a tile's side
+  uint explicit_bounds;      // ClusterBounds
+  uint pad;
+};
+UMB_ASSERT_SIZE(FrameRecord, 312);
+
+/// What the frame counts. The first words are arguments of indirect dispatches.
+struct FrameCounters {
+  uint cluster_groups[3];    // of 64 clusters
+  uint clusters;             // within capacity
+  uint clusters_found;
+  uint pairs;                // within capacity
+  uint pairs_found;
+  uint lights_visible;
+  uint caster_pairs;
+  uint views_drawn;
+  uint casters_missing;      // lights whose casters did not fit the rounds
+  uint batches_drawn_low, batches_drawn_high;
+  uint triangles_drawn_low, triangles_drawn_high;
+  uint all_lights_used;
+};
+UMB_ASSERT_SIZE(FrameCounters, 64);
+
+// --- Camera ---------------------------------------------------------------------------------------------------------
+
+UMB_FN bool is_background(float device_depth) { return device_depth <= 0.0f || device_depth >= 1.0f; }
+
+UMB_FN float view_depth(CameraRecord camera, float device_depth) {
+  return (camera.depth_to_t.x + camera.depth_to_t.y * device_depth) / (camera.depth_to_t.z + camera.depth_to_t.w * device_depth);
+}
+
+UMB_FN vec2 ndc_of_pixel(CameraRecord camera, vec2 pixel) {
+  return vec2(pixel.x / float(camera.size.x) * 2.0f - 1.0f, pixel.y / float(camera.size.y) * 2.0f - 1.0f);
+}
+
+UMB_FN vec3 world_position(CameraRecord camera, vec2 ndc, float t) {
+  return camera.origin + camera.origin_x * ndc.x + camera.origin_y * ndc.y + (camera.ray + camera.ray_x * ndc.x + camera.ray_y * ndc.y) * t;
+}
+
+// --- Slices and cells -----------------------------------------------------------------------------------------------
+
+UMB_FN uint slice_of(CameraRecord camera, float t) {
+  float steps;
+  if (camera.slices_are_logarithmic != 0u) {
+    steps = t > camera.slice_origin ? log2(t / camera.slice_origin) * camera.slice_scale : 0.0f;
+  } else {
+    steps = (t - camera.slice_origin) * camera.slice_scale;
+  }
+  return uint(clamp(steps, 0.0f, float(camera.slice_count - 1u)));
+}
+
+/// View depth where a slice begins; slice_count: where the last one ends.
+UMB_FN float slice_begin(CameraRecord camera, uint slice) {
+  if (camera.slices_are_logarithmic != 0u) return camera.slice_origin * exp2(float(slice) / camera.slice_scale);
+  return camera.slice_origin + float(slice) / camera.slice_scale;
+}
+
+/// World box of a cell (E4), from its eight corners: origin and ray are linear in the tile's corners, t adds them.
+UMB_FN Box cell_box(CameraRecord camera, uvec2 tile, uint slice) {
+  // log2 and exp2 round: a sample may sit a little outside of its slice.
+  float t_near = slice_begin(camera, slice);
+  float t_far = slice_begin(camera, slice + 1u);
+  float slack = (t_far - t_near) * 0.01f;
+  t_near -= slack;
+  t_far += slack;
+  Box box;
+  box.lo = vec3(1e30f);
+  box.hi = vec3(-1e30f);
+  for (uint corner = 0u; corner < 4u; ++corner) {
+    vec2 pixel = vec2(float((tile.x + (corner & 1u)) * TileSide), float((tile.y + (corner >> 1u)) * TileSide));
+    vec2 ndc = ndc_of_pixel(camera, pixel);
+    vec3 near_corner = world_position(camera, ndc, t_near);
+    vec3 far_corner = world_position(camera, ndc, t_far);
+    box.lo = min(box.lo, min(near_corner, far_corner));
+    box.hi = max(box.hi, max(near_corner, far_corner));
+  }
+  return box;
+}
+
+// --- Explicit bounds (O9, E5): three 10-bit number lines inside the cell's box --------------------------------------
+
+UMB_FN uint line_bit(float value, float lo, float hi) {
+  float t = hi > lo ? (value - lo) / (hi - lo) : 0.0f;
+  return uint(clamp(floor(10.0f * t), 0.0f, 9.0f));
+}
+
+/// The word that a sample ors into its cluster's; never 0, so that it marks the cluster as occupied too.
+UMB_FN uint sample_bits(vec3 position, Box cell) {
+  return (1u << line_bit(position.x, cell.lo.x, cell.hi.x)) | (1u << (10u + line_bit(position.y, cell.lo.y, cell.hi.y))) |
+         (1u << (20u + line_bit(position.z, cell.lo.z, cell.hi.z)));
+}
+
+UMB_FN Box explicit_box(uint bits, Box cell) {
+  Box box = cell;
+  vec3 step_size = (cell.hi - cell.lo) * 0.1f;
+  for (int axis = 0; axis < 3; ++axis) {
+    uint line = (bits >> uint(10 * axis)) & 0x3ffu;
+    float magnitude = max(abs(cell.lo[axis]), abs(cell.hi[axis]));
+    float slack = step_size[axis] * 0.01f + magnitude * 1e-6f;
+    // The outermost lines take what lies beyond them, so they end where the cell's box ends.
+    box.lo[axis] = cell.lo[axis] + step_size[axis] * float(findLSB(line)) - slack;
+    box.hi[axis] = cell.lo[axis] + step_size[axis] * float(findMSB(line) + 1) + slack;
+  }
+  return box;
+}
+
+// --- Normal cones: an octahedral map of 8×8 cells, one bit each ------------------------------------------------------
+
+UMB_CONST uint NormalCellsSide = 8u;
+
+UMB_FN vec2 octahedral(vec3 n) {
+  float sum = abs(n.x) + abs(n.y) + abs(n.z);
+  vec2 p = vec2(n.x / sum, n.y / sum);
+  if (n.z >= 0.0f) return p;
+  return vec2((1.0f - abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f), (1.0f - abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f));
+}
+
+UMB_FN vec3 from_octahedral(vec2 p) {
+  vec3 n = vec3(p.x, p.y, 1.0f - abs(p.x) - abs(p.y));
+  float fold = max(-n.z, 0.0f);
+  n.x += n.x >= 0.0f ? -fold : fold;
+  n.y += n.y >= 0.0f ? -fold : fold;
+  return normalize(n);
+}
+
+UMB_FN uint normal_cell(vec3 normal) {
+  vec2 p = octahedral(normal) * 4.0f + vec2(4.0f);
+  return uint(clamp(p.y, 0.0f, 7.0f)) * NormalCellsSide + uint(clamp(p.x, 0.0f, 7.0f));
+}
+
+UMB_FN vec3 normal_cell_corner(uint cell, uint corner) {
+  return from_octahedral(vec2((float(cell % 8u + (corner & 1u)) - 4.0f) * 0.25f, (float(cell / 8u + (corner >> 1u)) - 4.0f) * 0.25f));
+}
+
+/// Axis and cosine of the half-angle of a cone that holds every normal of the marked cells; (0, 0, 1, -1) = any direction.
+UMB_FN vec4 normal_cone(uint low, uint high) {
+  vec3 sum = vec3(0.0f);
+  for (uint cell = 0u; cell < 64u; ++cell) {
+    uint word = cell < 32u ? low : high;
+    if ((word & (1u << (cell & 31u))) == 0u) continue;
+    for (uint corner = 0u; corner < 4u; ++corner) sum += normal_cell_corner(cell, corner);
+  }
+  float size = length(sum);
+  if (size < 1e-3f) return vec4(0.0f, 0.0f, 1.0f, -1.0f);
+  vec3 axis = sum / size;
+  float cosine = 1.0f;
+  for (uint cell = 0u; cell < 64u; ++cell) {
+    uint word = cell < 32u ? low : high;
+    if ((word & (1u << (cell & 31u))) == 0u) continue;
+    for (uint corner = 0u; corner < 4u; ++corner) cosine = min(cosine, dot(axis, normal_cell_corner(cell, corner)));
+  }
+  return vec4(axis.x, axis.y, axis.z, max(cosine - 1e-4f, -1.0f));
+}
+
+UMB_NAMESPACE_END
+#endif

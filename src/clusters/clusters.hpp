@@ -1,0 +1,36 @@
+// Clustered light assignment: occupied clusters with their bounds, and the lights of each (O1, O9).
+#pragma once
+#include "clusters/camera.hpp"
+#include "clusters/cluster_push.shared.h"
+#include "gpu/prefix_sum.hpp"
+#include "scene/gpu_scene.hpp"
+#include "umbrage/settings.hpp"
+
+namespace umbrage::clusters {
+
+class Clusters {
+ public:
+  static Result<Clusters> create(const gpu::PipelineFactory&);
+  /// Buffers for a picture of this size and lists of so many pairs.
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, glm::uvec2 tiles, uint32_t pair_capacity, uint32_t light_slots,
+                       std::vector<gpu::Buffer>& retired);
+  /// Puts its addresses and capacities into the frame's record.
+  void fill(shared::FrameRecord&) const;
+  /// Depth (and normals) from descriptor set 0 → clusters. `frame` and `counters` as in FrameRecord; counters are cleared.
+  void record_clusters(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, glm::uvec2 tiles, NormalEncoding);
+  /// Clusters → light lists, and which lights are used.
+  void record_lights(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,
+                     VkDeviceAddress tree_shape, LightAssignment);
+  const gpu::Buffer& used_lights() const { return used_; }
+  uint32_t pair_capacity() const { return pair_capacity_; }
+  /// What a lookup reads.
+  std::array<const gpu::Buffer*, 6> published() const { return {&words_, &cells_, &boxes_, &cones_, &lists_, &lights_}; }
+
+ private:
+  uint32_t cluster_capacity_ = 0, pair_capacity_ = 0, light_slots_ = 0;
+  gpu::Pipeline assign_, count_, compact_, count_lights_[2], write_lights_[2];
+  gpu::PrefixSum scan_;
+  gpu::Buffer words_, found_, tile_counts_, cells_, boxes_, cones_, counts_, lists_, lights_, used_;
+};
+
+}  // namespace umbrage::clusters

@@ -1,0 +1,34 @@
+#version 460
+// For the traditional writer: the draws of each view on their own, in a range of commands per view.
+#extension GL_GOOGLE_include_directive : require
+#include "culling/traverse.glsl"
+layout(local_size_x = TraverseThreads) in;
+
+LightRecord light;
+uint view_bit;
+uint batches_drawn = 0u;
+uint triangles_drawn = 0u;
+
+void visit(uint caster, Box box) {
+  if ((view_mask(light, box) & view_bit) == 0u || !caster_is_lit_by(caster, light.light_mask)) return;
+  BatchRecord batch = Batches(push.batches).v[Casters(push.casters).v[caster].batch];
+  uint local_view = gl_WorkGroupID.x;
+  bool masked = batch.mask != NoIndex;
+  uint at = masked ? atomicAdd(DrawCountList(push.draw_counts).v[local_view].masked, 1u)
+                   : atomicAdd(DrawCountList(push.draw_counts).v[local_view].opaque, 1u);
+  uint range = local_view * 2u + uint(masked);
+  Commands(push.commands).v[range * push.window_size + at] = DrawCommand(batch.index_count, 1u, batch.first_index, 0, caster);
+  ++batches_drawn;
+  triangles_drawn += batch.triangle_count;
+}
+
+void main() {
+  uint view_index = push.window_first + gl_WorkGroupID.x;
+  uint slot = Views(push.views).v[view_index].light;
+  if (slot == NoIndex) return;
+  light = Lights(push.lights).v[slot];
+  view_bit = 1u << (view_index - light.first_view);
+  walk(light, gl_LocalInvocationIndex);
+  add_wide(batches_drawn, false);
+  add_wide(triangles_drawn, true);
+}

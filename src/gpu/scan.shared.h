@@ -1,0 +1,22 @@
+// Push constants of the prefix sum.
+#ifndef UMBRAGE_GPU_SCAN_SHARED_H
+#define UMBRAGE_GPU_SCAN_SHARED_H
+#include "core/shared_math.h"
+
+UMB_NAMESPACE_BEGIN
+
+UMB_CONST uint ScanThreads = 128u;
+UMB_CONST uint ScanItemsPerThread = 16u;
+UMB_CONST uint ScanBlock = 2048u;
+
+struct ScanPush {
+  uint64_t values;   // counts, turned into exclusive prefix sums
+  uint64_t sums;     // one a block
+  uint64_t total;    // where the sum of everything goes
+  uint count;
+  uint blocks;
+};
+UMB_ASSERT_SIZE(ScanPush, 32);
+
+UMB_NAMESPACE_END
+#endif

@@ -1,0 +1,75 @@
+// One copy command per run of neighbouring edits.
+#include "gpu/uploader.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace umbrage::gpu {
+
+Result<void> GrownBuffer::ensure(const Device& device, Memory& memory, VkDeviceSize bytes, const char* name) {
+  if (current_ && current_.size() >= bytes) return {};
+  auto made = Buffer::create(device, memory, std::max<VkDeviceSize>({bytes, current_.size() * 2, 4096}), MemoryKind::device, name);
+  if (!made) return made.error();
+  if (!former_) former_ = std::move(current_);  // else the current one was never filled
+  current_ = std::move(*made);
+  return {};
+}
+
+void GrownBuffer::record(Recorder& recorder, RetireQueue& retired, uint64_t serial) {
+  if (!former_) return;
+  {
+    Pass pass = recorder.pass("grow");
+    pass.read(former_, Access::transfer_read);
+    pass.write(current_, Access::transfer_write);
+    const VkBufferCopy region{0, 0, former_.size()};
+    recorder.device().vk().vkCmdCopyBuffer(pass.commands(), former_.handle(), current_.handle(), 1, &region);
+  }
+  retired.retire(std::move(former_), serial);
+  former_ = {};
+}
+
+Result<void> Uploader::begin(const Device& device, Memory& memory, VkDeviceSize bytes, const char* name) {
+  used_ = 0;
+  copies_.clear();
+  constexpr VkDeviceSize kKeep = 1 << 20;
+  const bool far_too_large = staging_ && staging_.size() > kKeep && staging_.size() / 8 > bytes;
+  if (staging_ && staging_.size() >= bytes && !far_too_large) return {};
+  staging_ = {};
+  auto made = Buffer::create(device, memory, std::max(bytes, kKeep), MemoryKind::upload, name);
+  if (!made) return made.error();
+  staging_ = std::move(*made);
+  return {};
+}
+
+std::byte* Uploader::stage(VkDeviceSize bytes, VkDeviceAddress* address) {
+  assert(used_ + bytes <= staging_.size());
+  std::byte* room = staging_.mapped() + used_;
+  if (address) *address = staging_.address() + used_;
+  used_ += (bytes + 15) & ~VkDeviceSize(15);
+  return room;
+}
+
+void Uploader::copy(const Buffer& target, VkDeviceSize offset, const void* data, VkDeviceSize bytes) {
+  if (bytes == 0) return;
+  const VkDeviceSize at = used_;
+  std::memcpy(stage(bytes), data, bytes);
+  if (!copies_.empty()) {
+    Copy& last = copies_.back();
+    if (last.target == &target && last.region.dstOffset + last.region.size == offset && last.region.srcOffset + last.region.size == at) {
+      last.region.size += bytes;
+      return;
+    }
+  }
+  copies_.push_back({&target, {at, offset, bytes}});
+}
+
+void Uploader::record(Recorder& recorder) {
+  for (const Copy& copy : copies_) {
+    Pass pass = recorder.pass("upload");
+    pass.write(*copy.target, Access::transfer_write);
+    recorder.device().vk().vkCmdCopyBuffer(pass.commands(), staging_.handle(), copy.target->handle(), 1, &copy.region);
+  }
+  copies_.clear();
+}
+
+}  // namespace umbrage::gpu

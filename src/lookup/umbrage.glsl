@@ -1,0 +1,277 @@
+// umbrage in a shading shader: clusters, lights and visibility in one file without includes. Callable from vertex, fragment,
+// compute and ray generation shaders: no derivatives, no subgroup operations. Include it first, after defining UMBRAGE_SET
+// as the set number at which ShadowSystem::descriptor_set_layout() is bound.
+//
+//   Frame frame = umbrage_frame(address);                     // ShaderInterface::frame
+//   Cluster cluster = umbrage_cluster(frame, pixel, depth);   // or umbrage_cluster_at(frame, position_ws)
+//   for (uint i = 0u; i < cluster.count; ++i) {
+//     Light light = umbrage_light(frame, cluster, i);         // light.host_index finds colour and intensity
+//     radiance += … * umbrage_visibility(frame, cluster, i, position_ws, geometric_normal_ws);
+//   }
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_samplerless_texture_functions : require
+
+#include "clusters/cluster_types.shared.h"
+#include "store/store_types.shared.h"
+
+#define UMBRAGE_REFERENCE(name, type, align) \
+  layout(buffer_reference, scalar, buffer_reference_align = align) readonly buffer name { type v[]; }
+UMBRAGE_REFERENCE(UmbrageFrames, FrameRecord, 8);
+UMBRAGE_REFERENCE(UmbrageLights, LightRecord, 4);
+UMBRAGE_REFERENCE(UmbrageViews, ShadowView, 4);
+UMBRAGE_REFERENCE(UmbrageWords, ClusterWord, 4);
+UMBRAGE_REFERENCE(UmbrageLists, ClusterList, 4);
+UMBRAGE_REFERENCE(UmbrageBoxes, Box, 4);
+UMBRAGE_REFERENCE(UmbrageCones, vec4, 4);
+UMBRAGE_REFERENCE(UmbrageUints, uint, 4);
+UMBRAGE_REFERENCE(UmbrageCounters, FrameCounters, 4);
+
+layout(set = UMBRAGE_SET, binding = 0) uniform texture2D umbrage_atlas;
+
+// --- What a host sees -----------------------------------------------------------------------------------------------
+
+struct Frame {
+  uint64_t address;
+};
+
+struct Cluster {
+  uint index;        // among the occupied ones; NoIndex: a cell that the depth buffer never showed
+  uint first;        // of its list; NoIndex: all lights
+  uint count;        // lights
+};
+
+struct Light {
+  vec3 position_ws;
+  uint type;         // 0 point, 1 spot, 2 directional
+  vec3 direction_ws; // where it shines, unit
+  float range_m;
+  float cos_inner;
+  float cos_outer;
+  uint host_index;   // LightDesc::host_index
+  uint index;        // the library's slot
+};
+
+Frame umbrage_frame(uint64_t address) { return Frame(address); }
+
+UMB_FN Cluster cluster_of_cell(Frame frame, uvec2 tile, uint slice) {
+  UmbrageFrames f = UmbrageFrames(frame.address);
+  uint tile_index = tile.y * f.v[0].camera.tiles.x + tile.x;
+  ClusterWord word = UmbrageWords(f.v[0].cluster_words).v[tile_index * SliceWords + (slice >> 5u)];
+  uint bit = 1u << (slice & 31u);
+  uint index = word.first + uint(bitCount(word.occupied & (bit - 1u)));
+  if ((word.occupied & bit) == 0u || index >= f.v[0].cluster_capacity) return Cluster(NoIndex, NoIndex, f.v[0].light_count);
+  ClusterList list = UmbrageLists(f.v[0].cluster_lists).v[index];
+  return Cluster(index, list.first, list.count);
+}
+
+/// The cluster of a pixel (its centre: whole + 0.5) with a depth-buffer value. Background has no lights.
+Cluster umbrage_cluster(Frame frame, vec2 pixel, float device_depth) {
+  CameraRecord camera = UmbrageFrames(frame.address).v[0].camera;
+  if (is_background(device_depth)) return Cluster(NoIndex, NoIndex, 0u);
+  uvec2 tile = min(uvec2(max(pixel, vec2(0.0f))) / TileSide, camera.tiles - 1u);
+  return cluster_of_cell(frame, tile, slice_of(camera, view_depth(camera, device_depth)));
+}
+
+/// The cluster of any point. Where the depth buffer showed nothing the list holds all lights: right, and slower.
+Cluster umbrage_cluster_at(Frame frame, vec3 position_ws) {
+  CameraRecord camera = UmbrageFrames(frame.address).v[0].camera;
+  vec4 clip = camera.clip_from_world * vec4(position_ws, 1.0f);
+  vec2 pixel = (clip.xy / clip.w * 0.5f + 0.5f) * vec2(camera.size);
+  if (!(clip.w > 0.0f) || any(lessThan(pixel, vec2(0.0f))) || any(greaterThanEqual(pixel, vec2(camera.size))))
+    return Cluster(NoIndex, NoIndex, UmbrageFrames(frame.address).v[0].light_count);
+  float t = dot(camera.t_row.xyz, position_ws) + camera.t_row.w;
+  return cluster_of_cell(frame, uvec2(pixel) / TileSide, slice_of(camera, t));
+}
+
+UMB_FN uint light_slot(Frame frame, Cluster cluster, uint i) {
+  UmbrageFrames f = UmbrageFrames(frame.address);
+  if (cluster.first == NoIndex) return UmbrageUints(f.v[0].light_order).v[i];
+  return UmbrageUints(f.v[0].cluster_lights).v[cluster.first + i];
+}
+
+/// i < cluster.count.
+Light umbrage_light(Frame frame, Cluster cluster, uint i) {
+  uint slot = light_slot(frame, cluster, i);
+  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
+  return Light(record.position_ws, record.type, record.direction_ws, record.range_m, record.cos_inner, record.cos_outer,
+               record.host_index, slot);
+}
+
+uint umbrage_light_count(Frame frame) { return UmbrageFrames(frame.address).v[0].light_count; }
+
+uint umbrage_cluster_count(Frame frame) {
+  return UmbrageCounters(UmbrageFrames(frame.address).v[0].counters).v[0].clusters;
+}
+
+/// World box of an occupied cluster.
+void umbrage_cluster_box(Frame frame, uint index, out vec3 lo, out vec3 hi) {
+  Box box = UmbrageBoxes(UmbrageFrames(frame.address).v[0].cluster_boxes).v[index];
+  lo = box.lo;
+  hi = box.hi;
+}
+
+/// Axis and cosine of the half-angle of a cone with all normals of an occupied cluster.
+vec4 umbrage_cluster_cone(Frame frame, uint index) {
+  return UmbrageCones(UmbrageFrames(frame.address).v[0].cluster_cones).v[index];
+}
+
+/// Tile (counted row by row) and depth slice of a cluster; NoIndex for cells that the depth buffer never showed.
+uvec2 umbrage_cluster_cell(Frame frame, Cluster cluster) {
+  if (cluster.index == NoIndex) return uvec2(NoIndex);
+  uint cell = UmbrageUints(UmbrageFrames(frame.address).v[0].cluster_cells).v[cluster.index];
+  return uvec2(cell / MaxSlices, cell % MaxSlices);
+}
+
+// --- Visibility: nine taps (O16) ------------------------------------------------------------------------------------
+// Each tap compares the stored depth at a texel's centre with the depth at which the direction through that centre meets
+// the receiver's tangent plane, so that a flat receiver cannot shadow itself at any slope. What remains to be biased away is
+// the curvature within a tap's reach, in texels: the plane is moved NormalOffset texels towards the light's side.
+
+const float UmbrageNormalOffset = 0.5f;
+
+/// A light's map as the taps need it.
+struct Map {
+  uint first_view;
+  uint views;
+  uint resolution;
+  float near_m;
+};
+
+UMB_FN float stored_depth(Frame frame, uint view, uvec2 texel) {
+  UmbrageFrames f = UmbrageFrames(frame.address);
+  uvec2 tile = atlas_tile(view, f.v[0].atlas_columns, f.v[0].atlas_resolution);
+  return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
+}
+
+/// 1 when nothing nearer than the plane is stored along a direction whose axis depth is 1.
+UMB_FN float tap_perspective(Frame frame, Map map, uint view, uvec2 texel, vec3 normal, vec3 relative, vec3 direction) {
+  float depth = receiver_plane_depth(normal, relative, direction);
+  float key = min(map.near_m / (depth * (1.0f - 4e-6f)), 1.0f);
+  return stored_depth(frame, view, texel) <= key ? 1.0f : 0.0f;
+}
+
+UMB_FN float visibility_cube(Frame frame, Map map, vec3 relative, vec3 normal) {
+  uint face = face_of_direction(relative);
+  vec3 place = face_coordinates(face, relative);
+  relative += normal * (UmbrageNormalOffset * texel_size_m(place.z, 1.0f, map.resolution));
+  vec2 texels = (place.xy / place.z * 0.5f + 0.5f) * float(map.resolution);
+  vec2 base = floor(texels);
+  vec2 fraction = texels - base;
+  float sum = 0.0f;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      vec2 st = (base + vec2(x, y) + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
+      CubeTap tap = cube_tap(face, st.x, st.y);
+      uvec2 texel = uvec2(texel_of(tap.s, map.resolution), texel_of(tap.t, map.resolution));
+      if (tap.face != face) {
+        tap.s = texel_centre(texel.x, map.resolution);
+        tap.t = texel_centre(texel.y, map.resolution);
+      }
+      float weight = (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
+      sum += weight * tap_perspective(frame, map, map.first_view + tap.face, texel, normal, relative, face_direction(tap.face, tap.s, tap.t));
+    }
+  }
+  return sum * 0.25f;
+}
+
+UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal) {
+  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[map.first_view];
+  float depth = dot(view.w_row, relative);
+  if (!(depth > 0.0f)) return 1.0f;
+  vec2 texels = (vec2(dot(view.x_row, relative), dot(view.y_row, relative)) / depth * 0.5f + 0.5f) * float(map.resolution);
+  relative += normal * (UmbrageNormalOffset * texel_size_m(depth, view.tangent, map.resolution));
+  vec2 base = floor(texels);
+  vec2 fraction = texels - base;
+  float sum = 0.0f;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
+      vec2 st = ((texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f) * (view.tangent * view.tangent);
+      float weight = (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
+      sum += weight * tap_perspective(frame, map, map.first_view, uvec2(texel), normal, relative, view.w_row + view.x_row * st.x + view.y_row * st.y);
+    }
+  }
+  return sum * 0.25f;
+}
+
+UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 normal) {
+  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[map.first_view];
+  vec4 clip = view_clip_position(view, position_ws + normal * (UmbrageNormalOffset * view.texel_m));
+  vec4 own = view_clip_position(view, position_ws);
+  if (any(greaterThan(abs(own.xy), vec2(1.0f)))) return 1.0f;   // beyond every caster
+  float half_side = view.texel_m * float(map.resolution) * 0.5f;
+  vec3 forward = normalize(-view.z_row);
+  float slope = min(dot(normal, forward), -0.02f);
+  // Depth gained along the receiver's plane with each unit of clip x and y.
+  vec2 gain = -vec2(dot(normal, view.x_row), dot(normal, view.y_row)) * half_side * half_side / slope * -length(view.z_row);
+  vec2 texels = (own.xy * 0.5f + 0.5f) * float(map.resolution);
+  vec2 base = floor(texels);
+  vec2 fraction = texels - base;
+  float sum = 0.0f;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
+      vec2 st = (texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
+      float depth = clip.z + dot(gain, st - clip.xy) + 1e-6f;
+      float weight = (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
+      sum += weight * (stored_depth(frame, map.first_view, uvec2(texel)) <= depth ? 1.0f : 0.0f);
+    }
+  }
+  return sum * 0.25f;
+}
+
+/// Visibility of a light by its slot (Light::index); as umbrage_visibility.
+float umbrage_light_visibility(Frame frame, uint slot, vec3 position_ws, vec3 normal_ws) {
+  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
+  if (record.view_count == 0u) return 1.0f;
+  Map map = Map(record.first_view, record.views, record.resolution, record.near_m);
+  if (record.views == ViewsOrtho) return visibility_ortho(frame, map, position_ws, normal_ws);
+  vec3 relative = position_ws - record.position_ws;
+  if (record.views == ViewsSpot) return visibility_spot(frame, map, relative, normal_ws);
+  return visibility_cube(frame, map, relative, normal_ws);
+}
+
+/// How much of light i of the cluster reaches a point: 0 nothing, 1 all. normal_ws: the surface's geometric normal, unit,
+/// on the side that is seen. Meaningful where normal · light > 0 and the light is in range; lights that cast no shadow give 1.
+float umbrage_visibility(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws) {
+  return umbrage_light_visibility(frame, light_slot(frame, cluster, i), position_ws, normal_ws);
+}
+
+/// One step along each axis of the shadow map used at a point, as vectors on the receiver's plane (0 for lights without one).
+void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws, out vec3 du_ws, out vec3 dv_ws) {
+  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[light_slot(frame, cluster, i)];
+  du_ws = vec3(0.0f);
+  dv_ws = vec3(0.0f);
+  if (record.view_count == 0u) return;
+  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[record.first_view];
+  vec3 relative = position_ws - record.position_ws;
+  vec3 ray = relative;   // from the light through the point
+  vec3 step_u;
+  vec3 step_v;
+  if (record.views == ViewsOrtho) {
+    ray = -view.z_row;
+    step_u = normalize(view.x_row) * view.texel_m;
+    step_v = normalize(view.y_row) * view.texel_m;
+  } else {
+    vec3 x_axis = view.x_row * view.tangent;
+    vec3 y_axis = view.y_row * view.tangent;
+    float depth = dot(view.w_row, relative);
+    if (record.views == ViewsCube) {
+      uint face = face_of_direction(relative);
+      depth = face_coordinates(face, relative).z;
+      x_axis = face_direction(face, 1.0f, 0.0f) - face_direction(face, 0.0f, 0.0f);
+      y_axis = face_direction(face, 0.0f, 1.0f) - face_direction(face, 0.0f, 0.0f);
+    }
+    float size = texel_size_m(depth, view.tangent, record.resolution);
+    step_u = x_axis * size;
+    step_v = y_axis * size;
+  }
+  // Slid along the ray until it lies on the plane; grazing planes are cut off at a slope of 50.
+  float slope = dot(normal_ws, ray);
+  float least = 0.02f * length(ray);
+  if (abs(slope) < least) slope = slope < 0.0f ? -least : least;
+  du_ws = step_u - ray * (dot(normal_ws, step_u) / slope);
+  dv_ws = step_v - ray * (dot(normal_ws, step_v) / slope);
+}

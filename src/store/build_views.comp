@@ -1,0 +1,41 @@
+#version 460
+// The views of every light that some cluster uses, and where in the atlas each is drawn.
+#extension GL_GOOGLE_include_directive : require
+#include "clusters/cluster_buffers.glsl"
+#include "store/store_types.shared.h"
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform PushBlock { BuildViewsPush push; };
+UMB_ARRAY(Views, ShadowView, 4);
+
+Box scene_box() {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = from_ordered_bits(Uints(push.scene_bounds).v[axis]);
+    box.hi[axis] = from_ordered_bits(Uints(push.scene_bounds).v[3 + axis]);
+  }
+  if (!(box.lo.x <= box.hi.x)) box = Box(vec3(0.0), vec3(1.0));   // no casters
+  return box;
+}
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= push.light_slots) return;
+  LightRecord light = Lights(push.lights).v[slot];
+  if (light.type == NoIndex) return;
+  bool used = push.all_lights != 0u || Counters(push.counters).counters.all_lights_used != 0u || Uints(push.used).v[slot] != 0u;
+  if (used) atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
+  if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
+  uint columns = Frame(push.frame).record.atlas_columns;
+  uint tile_resolution = Frame(push.frame).record.atlas_resolution;
+  for (uint i = 0u; i < light.view_count; ++i) {
+    ShadowView view;
+    if (light.views == ViewsOrtho) view = ortho_view(light, scene_box());
+    else if (light.views == ViewsCube) view = perspective_view(light, face_rotation(i), 1.0);
+    else view = perspective_view(light, view_rotation(light.direction_ws), spot_tangent(light.outer_cone_rad, light.resolution, ViewGuardTexels));
+    uvec2 tile = atlas_tile(light.first_view + i, columns, tile_resolution);
+    view.atlas_x = tile.x;
+    view.atlas_y = tile.y;
+    view.light = used ? slot : NoIndex;
+    Views(push.views).v[light.first_view + i] = view;
+  }
+}
