@@ -1,0 +1,56 @@
+// Instances as the vertex shader reads them and the indirect draws over them: one per primitive and state, instanced.
+#pragma once
+#include <tuple>
+
+#include "host/scene_buffers.hpp"
+#include "host/shaders/host.shared.h"
+
+namespace app {
+
+/// Draws that share pipeline and fixed state.
+struct DrawRange {
+  bool masked = false, double_sided = false, mirrored = false;
+  uint32_t first_command = 0, command_count = 0;
+};
+
+/// One blended item.
+struct BlendedDraw {
+  uint32_t instance = 0;  ///< Into the instance table.
+  uint32_t index_count = 0, first_index = 0;
+  bool double_sided = false, mirrored = false;
+  glm::vec3 center{0};  ///< World.
+};
+
+class DrawList {
+ public:
+  static umbrage::Result<DrawList> create(const GpuContext&, const Scene&, const SceneBuffers&, const Pose&,
+                                          std::span<const SceneItem>);
+  /// Takes over the transforms of what moves. No submission that reads the list is under way.
+  void update(const Pose&, std::span<const SceneItem>);
+  /// Opaque and masked items, a multi-draw for each range.
+  std::span<const DrawRange> ranges() const { return ranges_; }
+  VkBuffer commands() const { return commands_.get(); }
+  /// Blended items, unsorted.
+  std::span<const BlendedDraw> blended() const { return blended_; }
+  VkDeviceAddress instances() const { return instances_.address(); }
+
+ private:
+  struct Entry {
+    uint32_t item = 0, primitive = 0, index_count = 0, first_index = 0;
+    AlphaMode alpha = AlphaMode::opaque;
+    bool double_sided = false, mirrored = false, moving = false;
+    glm::vec3 center{0};  ///< Mesh space.
+    auto order() const { return std::tuple(alpha == AlphaMode::blend, alpha, double_sided, mirrored, primitive, item); }
+  };
+  void build(const Pose&, std::span<const SceneItem>);
+  void append_draw(uint32_t place);
+  void write_instance(uint32_t place, const Pose&, std::span<const SceneItem>);
+
+  std::vector<Entry> entries_;  ///< In the order of the instance table.
+  DeviceBuffer instances_, commands_;
+  std::vector<VkDrawIndexedIndirectCommand> draws_;
+  std::vector<DrawRange> ranges_;
+  std::vector<BlendedDraw> blended_;
+};
+
+}  // namespace app

@@ -1,0 +1,77 @@
+// Punctual lights (KHR_lights_punctual) on metallic-roughness surfaces (glTF 2.0, appendix B), with umbrage's visibility.
+#define UMBRAGE_SET 2
+#include "umbrage/shaders/umbrage.glsl"
+
+/// What of a light arrives at a point before visibility and material.
+struct Incidence {
+  vec3 to_light;      // Unit length.
+  float attenuation;  // Distance and cone.
+};
+
+/// False: the pair is not evaluated (out of range or cone, or either normal faces away).
+bool reaches(GpuLight light, vec3 position_ws, vec3 geometric_normal, vec3 normal, out Incidence incidence) {
+  incidence = Incidence(-light.direction_ws, 1.0);
+  if (light.type != LightDirectional) {
+    vec3 path = light.position_ws - position_ws;
+    float squared = dot(path, path);
+    if (squared >= light.range_m * light.range_m) return false;
+    incidence.to_light = path * inversesqrt(max(squared, 1e-12));
+    float relative = squared / (light.range_m * light.range_m);
+    incidence.attenuation = (1.0 - relative * relative) / max(squared, 1e-6);
+  }
+  if (dot(geometric_normal, incidence.to_light) <= 0.0 || dot(normal, incidence.to_light) <= 0.0) return false;
+  if (light.type == LightSpot) {
+    float cosine = dot(-incidence.to_light, light.direction_ws);
+    if (cosine <= light.cos_outer) return false;
+    float cone = clamp((cosine - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-3), 0.0, 1.0);
+    incidence.attenuation *= cone * cone;
+  }
+  return true;
+}
+
+struct Brdf {
+  vec3 diffuse_color, f0;
+  float alpha_squared, n_dot_v;
+};
+
+Brdf make_brdf(vec3 base_color, float metallic, float roughness, vec3 normal, vec3 to_eye) {
+  // A lower bound on roughness keeps highlights of ideal mirrors finite under point lights.
+  float alpha = max(roughness * roughness, 2e-3);
+  return Brdf(base_color * (1.0 - metallic), mix(vec3(0.04), base_color, metallic), alpha * alpha,
+              max(dot(normal, to_eye), 1e-4));
+}
+
+/// Reflected radiance per unit of irradiance on a plane that faces the light, times N·L.
+vec3 reflect_light(Brdf brdf, vec3 normal, vec3 to_eye, vec3 to_light) {
+  vec3 middle = normalize(to_light + to_eye);
+  float n_dot_l = dot(normal, to_light);
+  float n_dot_h = clamp(dot(normal, middle), 0.0, 1.0);
+  float v_dot_h = clamp(dot(to_eye, middle), 0.0, 1.0);
+  float a2 = brdf.alpha_squared;
+  float d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
+  float distribution = a2 / (Pi * d * d);
+  float shadowing = n_dot_l * sqrt(brdf.n_dot_v * brdf.n_dot_v * (1.0 - a2) + a2) +
+                    brdf.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - a2) + a2);
+  float grazing = 1.0 - v_dot_h;
+  vec3 fresnel = brdf.f0 + (1.0 - brdf.f0) * (grazing * grazing * grazing * grazing * grazing);
+  vec3 diffuse = (1.0 - fresnel) * brdf.diffuse_color / Pi;
+  return (diffuse + fresnel * (distribution * 0.5 / shadowing)) * n_dot_l;
+}
+
+/// All lights of a cluster on one surface point.
+vec3 shade(Frame frame, UmbrageFrame shadows, UmbrageCluster cluster, vec3 position_ws, vec3 geometric_normal,
+           vec3 normal, vec3 to_eye, Brdf brdf) {
+  // Bounced light, more from above: a share of all lights' flux spread over the scene (ambient_irradiance in frame_data.cpp).
+  vec3 sum = frame.data.ambient * (0.75 + 0.25 * normal.y) * (brdf.diffuse_color + 0.5 * brdf.f0) / Pi;
+  Lights lights = Lights(frame.data.lights);
+  for (uint i = 0u; i < cluster.count; ++i) {
+    GpuLight light = lights.at[umbrage_light(shadows, cluster, i).host_index];
+    Incidence incidence;
+    if (!reaches(light, position_ws, geometric_normal, normal, incidence)) continue;
+    float visibility = umbrage_visibility(shadows, cluster, i, position_ws, geometric_normal);
+    if (visibility <= 0.0) continue;
+    sum += light.intensity * (visibility * incidence.attenuation) *
+           reflect_light(brdf, normal, to_eye, incidence.to_light);
+  }
+  return sum;
+}

@@ -1,0 +1,54 @@
+// Lights every pixel of the G-buffer; counts how many lights that took.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "host.glsl"
+#include "targets.glsl"
+#include "lighting.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Push { FramePush push; };
+
+shared uint group_lights;
+shared uint group_most;
+
+vec3 shade_pixel(Frame frame, ivec2 pixel, float depth, out uint lights) {
+  vec4 base_color = texelFetch(base_color_target, pixel, 0);
+  vec3 emissive = texelFetch(emissive_target, pixel, 0).rgb;
+  UmbrageFrame shadows = umbrage_frame(frame.data.umbrage);
+  UmbrageCluster cluster = umbrage_cluster(shadows, vec2(pixel) + 0.5, depth);
+  lights = cluster.count;
+  if (base_color.a == 0.0) return emissive;
+
+  vec3 offset = offset_from_depth(frame, vec2(pixel) + 0.5, depth);
+  vec3 eye = to_eye(frame, offset);
+  vec3 geometric_normal = from_octahedral(texelFetch(geometric_normal_target, pixel, 0).xy);
+  vec3 normal = from_octahedral(texelFetch(normal_target, pixel, 0).xy);
+  vec2 metal_rough = texelFetch(metal_rough_target, pixel, 0).xy;
+  Brdf brdf = make_brdf(base_color.rgb, metal_rough.x, metal_rough.y, normal, eye);
+  return emissive + shade(frame, shadows, cluster, frame.data.eye_ws + offset, geometric_normal, normal, eye, brdf);
+}
+
+void main() {
+  Frame frame = Frame(push.frame);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (gl_LocalInvocationIndex == 0u) {
+    group_lights = 0u;
+    group_most = 0u;
+  }
+  barrier();
+  if (pixel.x < int(frame.data.width) && pixel.y < int(frame.data.height)) {
+    float depth = texelFetch(depth_target, pixel, 0).x;
+    uint lights = 0u;
+    vec4 color = vec4(0.0);
+    if (depth > 0.0) color = vec4(shade_pixel(frame, pixel, depth, lights), 1.0);
+    imageStore(color_target, pixel, color);
+    atomicAdd(group_lights, lights);
+    atomicMax(group_most, lights);
+  }
+  barrier();
+  if (gl_LocalInvocationIndex != 0u) return;
+  Counters counters = Counters(frame.data.counters);
+  uint before = atomicAdd(counters.data.lighting_computations_low, group_lights);
+  if (before + group_lights < before) atomicAdd(counters.data.lighting_computations_high, 1u);
+  atomicMax(counters.data.most_lights_of_a_pixel, group_most);
+}
