@@ -45,7 +45,7 @@ sources_of(src files)
 foreach(file IN LISTS files)
   string(REGEX MATCH "^src/([a-z_]+)" matched "${file}")
   set(name ${CMAKE_MATCH_1})
-  if(name STREQUAL glsl)  # what hosts include is made of headers that C++ and GLSL share, of any stage
+  if(name STREQUAL lookup)  # what hosts include is made of headers that C++ and GLSL share, of any stage
     includes_of(${file} included)
     list(FILTER included EXCLUDE REGEX "\\.shared\\.h$")
     if(included)
