@@ -29,6 +29,9 @@ struct CameraDesc {
   VkImageView normal = VK_NULL_HANDLE;     ///< Geometric normals; VK_NULL_HANDLE with NormalEncoding::none.
   VkImageLayout normal_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   NormalEncoding normal_encoding = NormalEncoding::none;
+  /// Points that this depth buffer does not hold will be looked up too (glass, fog, particles): every light gets a map,
+  /// not only those that reach a cluster.
+  bool other_receivers = false;
 };
 
 struct FrameDesc {

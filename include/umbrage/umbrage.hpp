@@ -65,6 +65,7 @@ class ShadowSystem {
   Result<std::vector<std::byte>> pipeline_cache() const;
 
  private:
+  friend struct SystemAccess;  // the library's own tests
   struct State;
   explicit ShadowSystem(std::unique_ptr<State>);
   std::unique_ptr<State> state_;

@@ -61,7 +61,7 @@ struct FrameRecord {
 };
 UMB_ASSERT_SIZE(FrameRecord, 312);
 
-/// What the frame counts. The first words are arguments of indirect dispatches.
+/// What the frame counts; set to 0 (pair_limit by the host) when it begins. The first words are arguments of indirect dispatches.
 struct FrameCounters {
   uint cluster_groups[3];    // of 64 clusters
   uint clusters;             // within capacity
@@ -71,12 +71,16 @@ struct FrameCounters {
   uint lights_visible;
   uint caster_pairs;
   uint views_drawn;
-  uint casters_missing;      // lights whose casters did not fit the rounds
+  uint pair_limit;           // caster pairs that the recorded rounds can draw
   uint batches_drawn_low, batches_drawn_high;
   uint triangles_drawn_low, triangles_drawn_high;
   uint all_lights_used;
 };
 UMB_ASSERT_SIZE(FrameCounters, 64);
+
+/// Words of the used lights: bits.
+UMB_CONST uint LightIsUsed = 1u;
+UMB_CONST uint LightLacksCasters = 2u;
 
 // --- Camera ---------------------------------------------------------------------------------------------------------
 

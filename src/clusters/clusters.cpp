@@ -90,11 +90,6 @@ void Clusters::record_clusters(gpu::Recorder& recorder, const gpu::Buffer& frame
                                NormalEncoding encoding) {
   {
     gpu::Scope scope(recorder, "assign clusters");
-    {
-      gpu::Pass pass = recorder.pass("clear counters");
-      pass.write(counters, gpu::Access::transfer_write);
-      recorder.device().vk().vkCmdFillBuffer(pass.commands(), counters.handle(), 0, VK_WHOLE_SIZE, 0);
-    }
     gpu::Pass pass = recorder.pass("assign clusters");
     const shared::AssignPush push{.frame = pass.read(frame), .words = pass.write(words_), .found = pass.write(found_),
                                   .tile_counts = pass.write(tile_counts_), .normal_encoding = static_cast<uint32_t>(encoding)};

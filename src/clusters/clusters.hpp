@@ -16,7 +16,7 @@ class Clusters {
                        std::vector<gpu::Buffer>& retired);
   /// Puts its addresses and capacities into the frame's record.
   void fill(shared::FrameRecord&) const;
-  /// Depth (and normals) from descriptor set 0 → clusters. `frame` and `counters` as in FrameRecord; counters are cleared.
+  /// Depth (and normals) from descriptor set 0 → clusters. `frame` and `counters` as in FrameRecord.
   void record_clusters(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, glm::uvec2 tiles, NormalEncoding);
   /// Clusters → light lists, and which lights are used.
   void record_lights(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,

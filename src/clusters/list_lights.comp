@@ -13,7 +13,7 @@ uint found = 0u;
 void take(uint slot, uint first) {
   if (writes) {
     Uints(push.cluster_lights).v[first + found] = slot;
-    Uints(push.used).v[slot] = 1u;
+    Uints(push.used).v[slot] = LightIsUsed;
   }
   ++found;
 }

@@ -95,6 +95,7 @@ void CasterCulling::record_round(gpu::Recorder& recorder, const Inputs& in, uint
   shared::TraversePush push = inputs(pass, in);
   push.counts = pass.read(counts_), push.counters = pass.write(in.counters), push.pairs = pass.write(pairs_);
   push.commands = pass.write(commands_), push.draw_counts = pass.write(draw_counts_);
+  push.used = pass.write(in.used_lights);
   push.window_first = round * pair_capacity_;
   push.window_size = pair_capacity_;
   pass.dispatch(write_[in.mode == umbrage::CasterCulling::view_mask], push, in.scene.light_slots());

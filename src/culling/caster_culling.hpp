@@ -18,6 +18,7 @@ class CasterCulling {
     const scene::GpuScene& scene;
     const gpu::Buffer& views;
     const gpu::Buffer& counters;
+    const gpu::Buffer& used_lights;
     VkDeviceAddress tree_shape;
     umbrage::CasterCulling mode;
   };

@@ -47,10 +47,11 @@ struct TraversePush {        // count_casters, write_casters, write_view_casters
   uint64_t pairs;            // write_casters
   uint64_t commands;         // opaque ones, then masked ones
   uint64_t draw_counts;
-  uint window_first;         // write_casters: pairs of this round; write_view_casters: the first view
-  uint window_size;          //                and how many;                            casters: room for commands of a view
+  uint64_t used;             // write_casters marks lights whose pairs are beyond the last round
+  uint window_first;         // write_casters: first pair of the round; write_view_casters: first view
+  uint window_size;          // write_casters: pairs a round; write_view_casters: room for commands a list
 };
-UMB_ASSERT_SIZE(TraversePush, 120);
+UMB_ASSERT_SIZE(TraversePush, 128);
 
 UMB_FN uint pair_light(CasterPair pair) { return pair.light_and_mask & 0xfffffu; }
 UMB_FN uint pair_mask(CasterPair pair) { return pair.light_and_mask >> 20u; }

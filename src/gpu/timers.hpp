@@ -12,6 +12,7 @@ class FrameTimers {
  public:
   static constexpr uint32_t kMaxScopes = 48;
   static Result<FrameTimers> create(const Device&);
+  FrameTimers() = default;
   FrameTimers(FrameTimers&&) noexcept;
   FrameTimers& operator=(FrameTimers&&) noexcept;
   ~FrameTimers();
@@ -23,7 +24,6 @@ class FrameTimers {
   uint32_t read(std::span<PassTime, kMaxScopes> out) const;
 
  private:
-  FrameTimers() = default;
   const Device* device_ = nullptr;
   VkQueryPool pool_ = VK_NULL_HANDLE;  ///< Null where the queue has no timestamps: everything is a no-op.
   std::array<const char*, kMaxScopes> names_{};

@@ -23,7 +23,10 @@ void main() {
   LightRecord light = Lights(push.lights).v[slot];
   if (light.type == NoIndex) return;
   bool used = push.all_lights != 0u || Counters(push.counters).counters.all_lights_used != 0u || Uints(push.used).v[slot] != 0u;
-  if (used) atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
+  if (used) {
+    atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
+    Uints(push.used).v[slot] = LightIsUsed;
+  }
   if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
   uint columns = Frame(push.frame).record.atlas_columns;
   uint tile_resolution = Frame(push.frame).record.atlas_resolution;

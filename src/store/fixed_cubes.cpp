@@ -116,7 +116,7 @@ void FixedCubes::record_views(gpu::Recorder& recorder, const gpu::Buffer& frame,
   if (scene.light_slots() == 0) return;
   gpu::Scope scope(recorder, "views");
   gpu::Pass pass = recorder.pass("build views");
-  const shared::BuildViewsPush push{.frame = pass.read(frame), .lights = pass.read(scene.light_buffer()), .used = pass.read(used_lights),
+  const shared::BuildViewsPush push{.frame = pass.read(frame), .lights = pass.read(scene.light_buffer()), .used = pass.write(used_lights),
                                     .counters = pass.write(counters), .views = pass.write(views_),
                                     .scene_bounds = pass.read(scene.caster_tree().bounds()),
                                     .light_slots = scene.light_slots(), .all_lights = all_lights};

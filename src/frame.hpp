@@ -1,0 +1,55 @@
+// One frame on the device: the stages and what passes between them.
+#pragma once
+#include "clusters/clusters.hpp"
+#include "culling/caster_culling.hpp"
+#include "gpu/recorder.hpp"
+#include "raster/writers.hpp"
+#include "scene/gpu_scene.hpp"
+#include "store/fixed_cubes.hpp"
+
+namespace umbrage {
+
+/// What begin_frame decided for the frame being recorded.
+struct FramePlan {
+  FrameSettings settings;
+  glm::uvec2 tiles{0};
+  NormalEncoding normal_encoding = NormalEncoding::none;
+  bool all_lights = false;
+  uint32_t caster_rounds = 1;
+  VkPipelineStageFlags2 consumer_stages = 0;
+  uint64_t serial = 0;
+};
+
+/// The device's record of a frame, as it lies in one buffer.
+struct FrameBlock {
+  shared::FrameRecord record;
+  shared::TreeShape caster_shape, light_shape;
+};
+
+struct Frame {
+  static Result<std::unique_ptr<Frame>> create(const gpu::Device&, gpu::Memory&, const gpu::PipelineFactory&, const StaticSettings&);
+
+  /// 0…1: needs no depth buffer.
+  void record_scene(gpu::Recorder&, const FramePlan&, gpu::Uploader&, gpu::RetireQueue&);
+  /// 3…11: after the host's depth.
+  void record_shadows(gpu::Recorder&, const FramePlan&);
+  /// Counters and light states for the host, into `target` (FrameCounters, then a word a light slot).
+  void record_statistics(gpu::Recorder&, const gpu::Buffer& target);
+
+  VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }
+  VkDeviceAddress light_shape() const { return block.address() + offsetof(FrameBlock, light_shape); }
+
+  scene::ScenePipelines scene_pipelines;
+  scene::GpuScene scene;
+  clusters::Clusters clusters;
+  store::FixedCubes store;
+  culling::CasterCulling culling;
+  raster::Writers writers;
+  gpu::Buffer block, counters;
+  uint32_t max_draws = 0;
+
+ private:
+  Frame(const gpu::Device& device, gpu::Memory& memory, const StaticSettings& settings) : scene(device, memory, settings) {}
+};
+
+}  // namespace umbrage

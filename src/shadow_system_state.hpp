@@ -1,0 +1,78 @@
+// What a ShadowSystem owns. Apart from the public class so that tests can look inside.
+#pragma once
+#include <array>
+#include <chrono>
+#include <vector>
+
+#include "frame.hpp"
+#include "gpu/timers.hpp"
+#include "umbrage/umbrage.hpp"
+
+namespace umbrage {
+
+/// What a frame in flight has for its own.
+struct FrameSlot {
+  gpu::Uploader uploader;
+  gpu::FrameTimers timers;
+  gpu::Buffer statistics;           // readback: FrameCounters, then a word a light slot
+  VkDescriptorSet frame_set = VK_NULL_HANDLE, host_set = VK_NULL_HANDLE;
+  uint64_t serial = 0;              // 0: never used
+  uint32_t light_slots = 0;
+  double cpu_record_ms = 0;
+  Statistics known;                 // what the host knew when it recorded
+  std::vector<LightStatus> without_map;
+};
+
+struct ShadowSystem::State {
+  static constexpr uint32_t kMaxRounds = 64;
+
+  ~State();
+  Result<void> create_sets(uint32_t frames_in_flight);
+  Result<void> create_host_layout();
+  Result<FrameSlot*> free_slot(const FrameDesc&);
+  void collect(uint64_t completed_serial);
+  void read_statistics(const FrameSlot&);
+  Result<void> lay_out_maps(const FrameSettings&);
+  Result<void> reserve(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
+  uint32_t plan_rounds();
+  void write_sets(FrameSlot&, const CameraDesc&);
+  void fill_block(FrameBlock&, const shared::CameraRecord&) const;
+  gpu::Recorder recorder(VkCommandBuffer, FrameSlot&);
+
+  StaticSettings settings;
+  std::unique_ptr<gpu::Device> device;
+  std::unique_ptr<gpu::Memory> memory;
+  std::unique_ptr<gpu::PipelineFactory> pipelines;
+  gpu::RetireQueue retired;
+  std::unique_ptr<Frame> frame;
+  VkDescriptorSetLayout host_layout = VK_NULL_HANDLE;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  VkSampler mask_sampler = VK_NULL_HANDLE;
+  VkDescriptorSet mask_set = VK_NULL_HANDLE;
+  std::vector<FrameSlot> slots;
+  uint32_t next_slot = 0;
+  FrameSlot* current = nullptr;     // being recorded
+  FramePlan plan;
+  store::AtlasLayout layout;
+  std::array<uint32_t, 2> laid_out_for{};   // min and max resolution
+  std::vector<LightStatus> without_map;
+  std::vector<gpu::Buffer> outgrown;
+  uint64_t last_serial = 0;
+  uint32_t pair_capacity = 0;       // cluster/light pairs, grown from what frames report
+  uint64_t caster_pairs_seen = 0;   // of the newest finished frame
+  bool caster_pairs_known = false;  // and nothing has been edited since it was recorded
+  uint64_t edit_serial = 0;         // first frame that holds the newest edits
+  bool edited = true;
+
+  Statistics statistics;
+  std::array<PassTime, gpu::FrameTimers::kMaxScopes> pass_times{};
+  std::vector<LightStatus> degraded;
+  gpu::HazardLog* hazard_log = nullptr;
+};
+
+/// A way in for tests.
+struct SystemAccess {
+  static ShadowSystem::State& state(ShadowSystem& system) { return *system.state_; }
+};
+
+}  // namespace umbrage
