@@ -1,0 +1,45 @@
+// The table of built-in scenes.
+#include "scenes/builtin.hpp"
+
+#include <array>
+#include <string>
+
+#include "scenes/town.hpp"
+
+namespace app {
+namespace {
+
+struct Entry {
+  BuiltinInfo info;
+  Detail detail;
+};
+
+constexpr std::array entries{
+    Entry{{"houses", "A small town at dusk: 1.0 M triangles, 256 lamps (HOUSES of Olsson et al. 2014)"}, Detail::full},
+    Entry{{"houses-lod", "The same town, lamps and cameras with low-polygon models"}, Detail::low},
+};
+
+constexpr auto infos = [] {
+  std::array<BuiltinInfo, entries.size()> result{};
+  for (size_t i = 0; i < entries.size(); ++i) result[i] = entries[i].info;
+  return result;
+}();
+
+}  // namespace
+
+std::span<const BuiltinInfo> builtin_scenes() { return infos; }
+
+umbrage::Result<Scene> builtin_scene(std::string_view name) {
+  for (const Entry& entry : entries) {
+    if (entry.info.name != name) continue;
+    Scene scene = make_town(entry.detail);
+    scene.name = name;
+    return scene;
+  }
+  std::string message = "there is no built-in scene '";
+  message.append(name).append("'; choose one of");
+  for (const BuiltinInfo& info : infos) message.append(" ").append(info.name);
+  return umbrage::Error{umbrage::ErrorCode::invalid_argument, message};
+}
+
+}  // namespace app
