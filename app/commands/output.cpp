@@ -105,7 +105,8 @@ umbrage::Result<OutputFile> Outputs::open(const fs::path& target) {
   const std::lock_guard lock(state_->mutex);
   for (int attempt = 0; attempt < 1000; ++attempt) {
     fs::path temporary = real_target;
-    temporary += "." + std::to_string(getpid()) + "-" + std::to_string(state_->next_number++) + ".tmp";
+    const uint32_t number = state_->next_number++;
+    temporary.concat(".").concat(std::to_string(getpid())).concat("-").concat(std::to_string(number)).concat(".tmp");
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) return invalid(target.string() + ": cannot be written: " + std::strerror(errno));

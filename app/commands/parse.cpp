@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kMaxSide = 16384;  // The largest image side that Vulkan devices commonly offer.
 constexpr size_t kMaxNamesListed = 24;
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quoted(std::string_view text) { return std::string(1, '"').append(text) + '"'; }
 
 std::string shortest(double value) {
   char text[32];

@@ -20,7 +20,8 @@ void for_each_primitive(const Scene& scene, const Pose& pose, const std::functio
 Box scene_bounds(const Scene& scene, const Pose& pose) {
   Box bounds;
   for_each_primitive(scene, pose, [&](const PosedPrimitive& posed) {
-    for (const glm::vec3& position : posed.positions) bounds.extend(position);
+    // Through the indices: primitives often share one buffer of vertices, most of which are not theirs.
+    for (const uint32_t index : posed.primitive->indices) bounds.extend(posed.positions[index]);
   });
   return bounds;
 }

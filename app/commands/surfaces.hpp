@@ -32,6 +32,7 @@ struct PosedPrimitive {
 /// In the pose's order, the same every time.
 void for_each_primitive(const Scene& scene, const Pose& pose, const std::function<void(const PosedPrimitive&)>& visit);
 
+/// Of all triangles.
 Box scene_bounds(const Scene& scene, const Pose& pose);
 
 }  // namespace app

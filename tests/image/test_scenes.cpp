@@ -1,0 +1,93 @@
+// Shadows on real scenes against the ray tracer: wrong pixel × light pairs outside the texel band ≤ 0.5 %.
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace {
+
+struct Case {
+  const char* name;
+  const char* scene;  ///< Under the shared scenes, or builtin:…
+  std::vector<std::string> options;
+  const char* lights = nullptr;  ///< A lights file beside the shared scenes.
+  uint32_t least_lights = 1;     ///< Visible ones.
+};
+
+std::ostream& operator<<(std::ostream& stream, const Case& test) { return stream << test.name; }
+
+void expect_right_shadows(const Case& test) {
+  const bool is_builtin = std::string(test.scene).starts_with("builtin:");
+  const std::string scene = is_builtin ? test.scene : shared_scene(test.scene);
+  if (scene.empty()) GTEST_SKIP() << test.scene << " is not in " << UMBRAGE_SCENES_DIR;
+  std::vector<std::string> arguments = {"compare", scene};
+  arguments.insert(arguments.end(), test.options.begin(), test.options.end());
+  if (test.lights) arguments.insert(arguments.end(), {"--lights", shared_scene(test.lights)});
+  const Outcome outcome = run_program(arguments);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json report = parse_json(outcome.out);
+  EXPECT_GE(report["lights_visible"], test.least_lights);
+  EXPECT_GT(report["pairs"]["evaluated"], 10000);
+  EXPECT_LE(report["wrong_outside_texel_band"], 0.005) << report["worst_lights"].dump(1).substr(0, 2000);
+  EXPECT_EQ(report["unbacked_taps"], 0);
+  EXPECT_EQ(report["overflows"], 0);
+  testing::Test::RecordProperty("wrong_outside_band", report["wrong_outside_band"].dump());
+  testing::Test::RecordProperty("wrong_outside_texel_band", report["wrong_outside_texel_band"].dump());
+}
+
+class FastScene : public testing::TestWithParam<Case> {};
+class LongScene : public testing::TestWithParam<Case> {};
+TEST_P(FastScene, ShadowsAreRight) { expect_right_shadows(GetParam()); }
+TEST_P(LongScene, ShadowsAreRight) { expect_right_shadows(GetParam()); }
+
+const auto name_of = [](const testing::TestParamInfo<Case>& info) { return std::string(info.param.name); };
+
+const std::string kSmall = "320x180", kMiddle = "640x360";
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, FastScene,
+    testing::Values(
+        Case{"lights", "lights_and_masks/test_lights.gltf", {"--size", kSmall}, nullptr, 2},
+        Case{"house_random", "lights_and_masks/house.glb", {"--size", kSmall, "--random-lights", "24"}, nullptr, 12},
+        Case{"moving_lights", "lights_and_masks/multiple_animated_lights.gltf", {"--size", kSmall, "--time", "1.3"}},
+        Case{"fox", "animated/Fox.glb", {"--size", kSmall, "--time", "0.4", "--random-lights", "8"}, nullptr, 2},
+        Case{"man", "animated/CesiumMan.glb", {"--size", kSmall, "--time", "0.7", "--random-lights", "8"}, nullptr, 2},
+        Case{"man_validated",
+             "animated/CesiumMan.glb",
+             {"--size", kSmall, "--time", "0.2", "--frames", "3", "--random-lights", "4", "--validate"}},
+        Case{"traditional",
+             "lights_and_masks/house.glb",
+             {"--size", kSmall, "--random-lights", "6", "--set", "writer=traditional"},
+             nullptr,
+             3}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, LongScene,
+    testing::Values(
+        Case{"sponza", "sponza/sponza.gltf", {"--size", kMiddle}, "sponza/lights_65.json", 30},
+        Case{"hall_8", "hall/hall_8.glb", {"--size", kMiddle, "--time", "2"}, nullptr, 6},
+        Case{"hall_65", "hall/hall_65.glb", {"--size", kMiddle, "--time", "1"}, nullptr, 30},
+        Case{"accident", "nexuiz_accident/accident.gltf", {"--size", kMiddle}, nullptr, 60},
+        Case{"dieselpower", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle}, nullptr, 60},
+        Case{"oacmpctf3", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle}, nullptr, 200},
+        Case{"black_forest", "stk_black_forest/black_forest.gltf", {"--size", kMiddle}, nullptr, 40},
+        Case{"necropolis", "zad_necropolis/necropolis.gltf", {"--size", kMiddle}, "zad_necropolis/lights_356.json", 40},
+        Case{"stag", "animated/Stag.gltf", {"--size", kMiddle, "--time", "0.5", "--random-lights", "16"}, nullptr, 4},
+        Case{"morph",
+             "animated/MorphStressTest.gltf",
+             {"--size", kMiddle, "--time", "1.1", "--random-lights", "16"},
+             nullptr,
+             4},
+        Case{"houses", "builtin:houses", {"--size", kMiddle}, nullptr, 100},
+        Case{"houses_lod_validated",
+             "builtin:houses-lod",
+             {"--size", kMiddle, "--frames", "2", "--validate"},
+             nullptr,
+             100}),
+    name_of);
+
+}  // namespace
