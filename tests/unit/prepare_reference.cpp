@@ -24,7 +24,7 @@ Aabb united(const Aabb& a, const Aabb& b) {
 Aabb box_of(const TriangleMesh& mesh, uint32_t triangle) {
   Aabb box{{Infinity, Infinity, Infinity}, {-Infinity, -Infinity, -Infinity}};
   for (uint32_t i = 0; i < 3; ++i) {
-    const Vec3& p = mesh.positions[mesh.indices[3 * triangle + i]];
+    const Vec3& p = mesh.positions[mesh.indices[3 * size_t{triangle} + i]];
     box = united(box, {p, p});
   }
   return box;
@@ -37,7 +37,7 @@ float squared_diagonal(const Aabb& box) {
 
 bool fits(const TriangleMesh& mesh, const std::vector<uint32_t>& triangles, const GroupLimits& limits) {
   std::set<uint32_t> vertices;
-  for (const uint32_t t : triangles) vertices.insert(&mesh.indices[3 * t], &mesh.indices[3 * t] + 3);
+  for (const uint32_t t : triangles) vertices.insert(&mesh.indices[3 * size_t{t}], &mesh.indices[3 * size_t{t}] + 3);
   return triangles.size() <= limits.triangles && vertices.size() <= limits.vertices;
 }
 
@@ -149,6 +149,7 @@ TriangleGroups morton_chunks(const TriangleMesh& mesh, const GroupLimits& limits
   }
   std::sort(codes.begin(), codes.end());
   std::vector<uint32_t> order;
+  order.reserve(codes.size());
   for (const auto& [code, triangle] : codes) order.push_back(triangle);
   return chunks(mesh, order, limits);
 }

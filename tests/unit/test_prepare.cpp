@@ -141,7 +141,7 @@ TEST(PrepareMesh, UsesWideIndicesForManyVerticesOnly) {
   const auto narrow = prepare(wavy_grid(40, 40), {1024, 256}), wide = prepare(wavy_grid(40, 40), {1024, 3072});
   EXPECT_TRUE(umbrage::open_prepared(*narrow)->wide_indices.empty());
   EXPECT_TRUE(umbrage::open_prepared(*wide)->local_indices.empty());
-  EXPECT_EQ(umbrage::open_prepared(*wide)->wide_indices.size(), size_t{40 * 40 * 6});
+  EXPECT_EQ(umbrage::open_prepared(*wide)->wide_indices.size(), size_t{40} * 40 * 6);
 }
 
 // Diagonals of coordinates near the largest float must not overflow into ties: four corners stay apart.

@@ -79,7 +79,7 @@ TEST(Agglomerate, PreparesTwoHundredThousandTrianglesPerSecond) {
   std::vector<TriangleMesh> meshes = adversarial_meshes(40000);
   meshes.push_back(wavy_grid(320, 320));
   for (const TriangleMesh& mesh : meshes) {
-    const auto triangles = static_cast<double>(mesh.indices.size() / 3);
+    const auto triangles = static_cast<double>(mesh.indices.size()) / 3;
     if (triangles < 1000) continue;
     double seconds = 1e9;
     for (int repeat = 0; repeat < 3; ++repeat) {
