@@ -51,6 +51,7 @@ class FrameData {
   DeviceBuffer frame_buffer_, lights_, counters_, counters_read_back_;
 };
 
-umbrage::CameraDesc umbrage_camera(const CameraMatrices&, const Targets&);
+/// other_receivers: surfaces that the depth buffer does not hold are shaded too.
+umbrage::CameraDesc umbrage_camera(const CameraMatrices&, const Targets&, bool other_receivers);
 
 }  // namespace app

@@ -121,7 +121,7 @@ Result<void> Renderer::State::begin_frame(const FrameInput& input, const CameraM
   if (auto updated = shadows->update(*input.pose, items, deformed); !updated) return updated;
   if (auto set = shadows->set_lights(input.lights); !set) return set;
 
-  const umbrage::CameraDesc camera_desc = umbrage_camera(camera, targets);
+  const umbrage::CameraDesc camera_desc = umbrage_camera(camera, targets, !draws.blended().empty());
   umbrage::FrameDesc frame;
   frame.serial = serial + 1;
   frame.completed_serial = completed;
