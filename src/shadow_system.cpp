@@ -141,6 +141,7 @@ ShaderInterface ShadowSystem::shader_interface(CameraId) const {
 }
 
 VkDescriptorSetLayout ShadowSystem::descriptor_set_layout() const { return state_->host_layout; }
+void ShadowSystem::collect(uint64_t completed_serial) { state_->collect(completed_serial); }
 const Statistics& ShadowSystem::statistics() const { return state_->statistics; }
 std::span<const LightStatus> ShadowSystem::degraded_lights() const { return state_->degraded; }
 Capabilities ShadowSystem::capabilities() const { return state_->device->capabilities(); }

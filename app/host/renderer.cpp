@@ -196,6 +196,7 @@ Result<FrameReport> Renderer::render(const FrameInput& input) {
   const auto start = std::chrono::steady_clock::now();
   if (auto done = s.gpu->submit_and_wait(); !done) return done.error();
   s.completed = s.serial;
+  s.shadows->system().collect(s.completed);
   auto report = s.report();
   if (report) report->wall_ms = ms_since(start);
   return report;

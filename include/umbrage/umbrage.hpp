@@ -57,7 +57,9 @@ class ShadowSystem {
   /// Of shader_interface().set; owned by the system.
   VkDescriptorSetLayout descriptor_set_layout() const;
 
-  /// Of the newest frame with serial <= FrameDesc::completed_serial.
+  /// Takes over what frames up to this serial, all finished by the device, have reported; begin_frame does so too.
+  void collect(uint64_t completed_serial);
+  /// Of the newest frame with serial <= the completed_serial of begin_frame or collect.
   const Statistics& statistics() const;
   std::span<const LightStatus> degraded_lights() const;
   Capabilities capabilities() const;
