@@ -99,7 +99,7 @@ StubHost::Image StubHost::make_image(vk::Format format, vk::ImageUsageFlags usag
 }
 
 void StubHost::make_visibility_buffer(uint32_t lights) {
-  const vk::DeviceSize size = sizeof(float) * picture_width * picture_height * lights;
+  const vk::DeviceSize size = sizeof(float) * picture_width * picture_height * (lights + 1);
   visibility_ = device_.createBufferUnique({.size = size, .usage = vk::BufferUsageFlagBits::eStorageBuffer |
                                                                    vk::BufferUsageFlagBits::eShaderDeviceAddress});
   visibility_memory_ = allocate(device_.getBufferMemoryRequirements(*visibility_),
@@ -285,12 +285,16 @@ Visibility StubHost::render(umbrage::ShadowSystem& system, const Scene& scene, c
   read(commands, system, scene, convention);
   submit_and_wait(commands);
 
-  Visibility result{.lights = uint32_t(scene.lights.size()), .of = {}};
-  const size_t row = size_t(picture_width) * result.lights;
-  result.of.reserve(row * picture_height);
+  Visibility result;
+  const size_t lights = scene.lights.size();
   for (uint32_t y = 0; y < picture_height; y++) {
-    const float* first = visibility_values_ + row * (convention.flipped ? picture_height - 1 - y : y);
-    result.of.insert(result.of.end(), first, first + row);
+    const size_t row = convention.flipped ? picture_height - 1 - y : y;
+    for (size_t pixel = row * picture_width; pixel < (row + 1) * picture_width; pixel++) {
+      const float* values = visibility_values_ + pixel * (lights + 1);
+      result.of.insert(result.of.end(), values, values + lights);
+      if (std::any_of(values, values + lights, [](float visibility) { return visibility >= 0; }))
+        result.cone_cosines.push_back(values[lights]);
+    }
   }
   return result;
 }

@@ -42,11 +42,10 @@ struct Convention {
   static Convention in_room();
 };
 
-/// Visibility by pixel, then light; rows always from the top. -1: not in the pixel's list.
+/// What the shader saw; rows always from the top.
 struct Visibility {
-  uint32_t lights = 0;
-  std::vector<float> of;
-  float at(uint32_t pixel, uint32_t light) const { return of[size_t(pixel) * lights + light]; }
+  std::vector<float> of;            ///< By pixel, then light. -1: not in the pixel's list.
+  std::vector<float> cone_cosines;  ///< Of the normal cones of the pixels that have lights; -2: the cone is wrong.
 };
 
 class StubHost {

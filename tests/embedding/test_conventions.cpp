@@ -99,15 +99,26 @@ void expect_same(const Visibility& expected, const Visibility& found, const std:
   ASSERT_EQ(expected.of.size(), found.of.size()) << name;
   size_t evaluated = 0, shadowed = 0, different = 0;
   for (size_t i = 0; i < expected.of.size(); i++) {
-    // A light may be in the longer list of a coarser cluster and reach nothing there: only lit pixels are compared.
-    if (expected.of[i] < 0 || found.of[i] < 0) continue;
+    if (expected.of[i] < 0 && found.of[i] < 0) continue;
     evaluated++;
-    shadowed += expected.of[i] < 0.5f;
+    shadowed += expected.of[i] >= 0 && expected.of[i] < 0.5f;
     different += std::abs(expected.of[i] - found.of[i]) > 0.05f;
   }
   EXPECT_GT(evaluated, expected.of.size() / 20) << name;
   EXPECT_GT(shadowed, evaluated / 50) << name;
   EXPECT_LE(different, evaluated / 1000) << name << ": of " << evaluated;
+}
+
+/// Every cluster's cone holds the normals of its pixels; without normals it holds all.
+void expect_cones(const Visibility& found, umbrage::NormalEncoding encoding, const std::string& name) {
+  size_t wrong = 0, narrow = 0;
+  for (const float cosine : found.cone_cosines) {
+    wrong += cosine < -1.5f;
+    narrow += cosine > 0.5f;
+  }
+  EXPECT_EQ(wrong, 0u) << name << ": of " << found.cone_cosines.size();
+  if (encoding == umbrage::NormalEncoding::none) EXPECT_EQ(narrow, 0u) << name;
+  else EXPECT_GT(narrow, found.cone_cosines.size() / 4) << name;
 }
 
 class Conventions : public testing::Test {
@@ -134,8 +145,12 @@ class Conventions : public testing::Test {
 TEST_F(Conventions, PerspectiveCamerasAndNormalsAgree) {
   const Scene scene = Scene::room();
   const Visibility expected = render(scene, reversed_infinite());
-  for (const Convention& convention : perspective_conventions())
-    expect_same(expected, render(scene, convention), convention.name);
+  expect_cones(expected, umbrage::NormalEncoding::xyz_signed, "reversed infinite");
+  for (const Convention& convention : perspective_conventions()) {
+    const Visibility found = render(scene, convention);
+    expect_same(expected, found, convention.name);
+    expect_cones(found, convention.encoding, convention.name);
+  }
 }
 
 TEST_F(Conventions, OrthographicCamerasAgree) {

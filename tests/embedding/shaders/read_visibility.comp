@@ -1,4 +1,5 @@
 // Writes what umbrage_visibility() says, for every pixel and light; -1 stays where the light is not in the pixel's list.
+// Behind a pixel's lights: the cosine of its cluster's normal cone, or -2 where the cone misses the pixel's normal.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -37,9 +38,13 @@ void main() {
 
   UmbrageFrame shadows = umbrage_frame(push.shadows);
   UmbrageCluster cluster = umbrage_cluster(shadows, pixel, depth);
-  uint first = uint(texel.y * size.x + texel.x) * push.lights;
+  uint first = uint(texel.y * size.x + texel.x) * (push.lights + 1u);
   for (uint i = 0u; i < cluster.count; i++) {
     uint light = umbrage_light(shadows, cluster, i).host_index;
     Visibility(push.visibility).of[first + light] = umbrage_visibility(shadows, cluster, i, position_ws, normal_ws);
   }
+  if (cluster.count == 0u) return;
+  vec4 cone = umbrage_cluster_cone(shadows, cluster.index);
+  bool inside = dot(cone.xyz, normal_ws) > cone.w - 1e-3;
+  Visibility(push.visibility).of[first + push.lights] = inside ? cone.w : -2.0;
 }
