@@ -1,4 +1,5 @@
-// Numbers out of buffers: every accessor is checked against the bytes that are there before anything is allocated for it.
+// Numbers out of buffers: every accessor is checked against the bytes that are there before anything is allocated for
+// it.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>

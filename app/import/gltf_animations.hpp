@@ -6,7 +6,8 @@
 
 namespace app::gltf {
 
-/// Channels of nodes in the scene shown; animations without any are left out. scene.nodes and scene.meshes must be filled.
+/// Channels of nodes in the scene shown; animations without any are left out. scene.nodes and scene.meshes must be
+/// filled.
 std::vector<Animation> import_animations(const Model&, Accessors&, const NodeMap&, const Scene&);
 
 }  // namespace app::gltf

@@ -1,5 +1,5 @@
-// The one translation unit with tinygltf's code. tinygltf trusts its input and drops what it does not understand, so it is
-// handed a document that was checked before (gltf_schema.cpp); buffers and images, where it would read files and
+// The one translation unit with tinygltf's code. tinygltf trusts its input and drops what it does not understand, so it
+// is handed a document that was checked before (gltf_schema.cpp); buffers and images, where it would read files and
 // allocate by counts of the file, are kept from it.
 #include <fstream>  // tinygltf uses it in code that is never called here and does not include it
 
@@ -55,7 +55,8 @@ void take_sources(json& document, Model& model) {
   document.erase("images");
 }
 
-/// tinygltf refuses index accessors without a buffer view, which glTF allows (all zero): they get one, told by its number.
+/// tinygltf refuses index accessors without a buffer view, which glTF allows (all zero): they get one, told by its
+/// number.
 void add_stand_in_view(json& document, Model& model) {
   json& views = document["bufferViews"];
   if (views.is_null()) views = json::array();

@@ -1,4 +1,5 @@
-// Every limit of the importer. Together with the size of the file they bound memory and time; what exceeds one is refused.
+// Every limit of the importer. Together with the size of the file they bound memory and time; what exceeds one is
+// refused.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +13,9 @@ constexpr uint64_t max_json_bytes = uint64_t{256} << 20;
 constexpr size_t max_objects = size_t{1} << 20;
 /// Elements of lists whose entries are large in memory (materials take 2 KiB each however short their text).
 constexpr size_t max_large_objects = size_t{1} << 16;
-/// Numbers decoded from accessors may take this many bytes and `decoded_per_file_byte` for each byte of the file and its
-/// buffers. An honest file needs about 12 (one-byte strip indices become three four-byte ones); a file that refers to the
-/// same data over and over needs any amount.
+/// Numbers decoded from accessors may take this many bytes and `decoded_per_file_byte` for each byte of the file and
+/// its buffers. An honest file needs about 12 (one-byte strip indices become three four-byte ones); a file that refers
+/// to the same data over and over needs any amount.
 constexpr uint64_t decoded_bytes_base = uint64_t{64} << 20;
 constexpr uint64_t decoded_per_file_byte = 64;
 /// Pixels along a side of an image.

@@ -56,7 +56,8 @@ std::vector<uint32_t> read_indices(Context& context, const tinygltf::Primitive& 
   if (high >= context.vertex_count) {
     refuse(context.where, ": index ", high, " is beyond its ", context.vertex_count, " vertices");
   }
-  // Files may keep many primitives in one vertex buffer: only the part between the smallest and the largest index is read.
+  // Files may keep many primitives in one vertex buffer: only the part between the smallest and the largest index is
+  // read.
   context.vertices = {low, size_t{high} - low + 1};
   for (uint32_t& index : indices) index -= low;
   return indices;
@@ -95,7 +96,8 @@ struct Influence {
   uint16_t joint = 0;
 };
 
-/// The four strongest influences of a vertex, with weights that sum to 1. A vertex without weight follows its first joint.
+/// The four strongest influences of a vertex, with weights that sum to 1. A vertex without weight follows its first
+/// joint.
 void store_influences(std::vector<Influence>& influences, glm::u16vec4& joints, glm::vec4& weights) {
   std::ranges::stable_sort(influences, std::greater{}, &Influence::weight);
   float sum = 0;

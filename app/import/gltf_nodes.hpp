@@ -14,8 +14,8 @@ using NodeMap = std::vector<int>;
 std::vector<Camera> import_cameras(const Model&);
 std::vector<Light> import_lights(const Model&);
 
-/// Fills name, nodes and skins. Meshes, cameras and lights must be in the scene already: nodes are checked against them.
-/// Refused: cycles, nodes with two parents, references to nothing, skins whose joints are not in the scene shown.
+/// Fills name, nodes and skins. Meshes, cameras and lights must be in the scene already: nodes are checked against
+/// them. Refused: cycles, nodes with two parents, references to nothing, skins whose joints are not in the scene shown.
 NodeMap import_nodes(const Model&, Accessors&, Scene&);
 
 }  // namespace app::gltf

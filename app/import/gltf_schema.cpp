@@ -31,8 +31,8 @@ enum class Kind : uint8_t {
 enum class Presence : uint8_t { optional, required };
 using enum Presence;
 
-/// One property of one kind of object. count: exact length of number arrays, largest length of lists of objects; 0 = any,
-/// max_objects. members: the table's name for the object(s) inside.
+/// One property of one kind of object. count: exact length of number arrays, largest length of lists of objects; 0 =
+/// any, max_objects. members: the table's name for the object(s) inside.
 struct Property {
   std::string_view object, key;
   Kind kind;

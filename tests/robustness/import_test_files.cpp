@@ -85,7 +85,7 @@ size_t address_space_now() {
 bool succeeds_within(size_t extra_address_space, const std::function<bool()>& function) {
   const pid_t child = fork();
   if (child == 0) {
-#ifndef __SANITIZE_ADDRESS__  // its shadow memory is address space too
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory is address space too
     const rlimit memory{address_space_now() + extra_address_space, RLIM_INFINITY};
     setrlimit(RLIMIT_AS, &memory);
 #else

@@ -57,7 +57,8 @@ TEST(Hostile, OffsetsThatWrapAround) {
                              rest,
                          "are beyond the 36");
   expect_cheaply_refused(asset + bytes + R"(, "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "accessors": [{"bufferView": 0, "byteOffset": 9007199254740992, "componentType": 5126, "type": "VEC3", "count": 3}])" +
+    "accessors": [{"bufferView": 0, "byteOffset": 9007199254740992,
+      "componentType": 5126, "type": "VEC3", "count": 3}])" +
                              rest,
                          "of a buffer view of 36");
   expect_cheaply_refused(asset + bytes + R"(, "bufferViews": [{"buffer": 0, "byteLength": 36, "byteStride": 252}],

@@ -41,7 +41,8 @@ TEST(Materials, Everything) {
       "normalTexture": {"index": 0, "scale": 0.5}, "emissiveTexture": {"index": 1},
       "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "baseColorTexture": {"index": 1, "texCoord": 1},
         "metallicFactor": 0.75, "roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 0}},
-      "extensions": {"KHR_materials_unlit": {}, "KHR_materials_emissive_strength": {"emissiveStrength": 4294967296}})"));
+      "extensions": {"KHR_materials_unlit": {}, 
+        "KHR_materials_emissive_strength": {"emissiveStrength": 4294967296}})"));
   ASSERT_LOADS(scene);
   const app::Material& material = scene.value().materials[0];
   EXPECT_EQ(material.name, "m");
@@ -85,12 +86,14 @@ TEST(Materials, TextureCoordinateSetsAreMappedToTwo) {
                           .add(std::vector<float>(6, 0.25f))
                           .add(std::vector<float>(6, 0.75f));
   const auto scene = import_text(textured(
-      R"("normalTexture": {"index": 0, "texCoord": 3}, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}})",
+      R"("normalTexture": {"index": 0, "texCoord": 3},
+      "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}})",
       ", " + bytes.buffers() + R"(, "bufferViews": [{"buffer": 0, "byteLength": 84}], "accessors": [
       {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3},
       {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "type": "VEC2", "count": 3},
       {"bufferView": 0, "byteOffset": 60, "componentType": 5126, "type": "VEC2", "count": 3}],
-      "meshes": [{"primitives": [{"material": 0, "attributes": {"POSITION": 0, "TEXCOORD_1": 1, "TEXCOORD_3": 2}}]}])"));
+      "meshes": [{"primitives": [{"material": 0,
+        "attributes": {"POSITION": 0, "TEXCOORD_1": 1, "TEXCOORD_3": 2}}]}])"));
   ASSERT_LOADS(scene);
   const app::Material& material = scene.value().materials[0];
   const app::Primitive& primitive = scene.value().meshes[0].primitives[0];

@@ -1,4 +1,5 @@
-// Real small files with flipped bytes, cut tails and exchanged numbers: always a scene or a message. The same every run.
+// Real small files with flipped bytes, cut tails and exchanged numbers: always a scene or a message. The same every
+// run.
 #include <fstream>
 #include <iterator>
 #include <random>

@@ -36,7 +36,8 @@ TEST(Nodes, RequiredExtensions) {
 
 TEST(Nodes, OnlyTheSceneShownParentsFirst) {
   const auto scene = import_text(asset + R"("scene": 1, "scenes": [{"nodes": [0]}, {"name": "shown", "nodes": [4, 3]}],
-    "nodes": [{"name": "a"}, {"name": "b"}, {"name": "c", "children": [1]}, {"name": "d"}, {"name": "e", "children": [2, 5]}, {"name": "f"}]})");
+    "nodes": [{"name": "a"}, {"name": "b"}, {"name": "c", "children": [1]},
+              {"name": "d"}, {"name": "e", "children": [2, 5]}, {"name": "f"}]})");
   ASSERT_LOADS(scene);
   std::string order;
   for (const app::Node& node : scene.value().nodes) order += node.name;

@@ -1,4 +1,5 @@
-// Files that others made to break importers: each loads or is refused with a message, within a time and an address space.
+// Files that others made to break importers: each loads or is refused with a message, within a time and an address
+// space.
 #include <chrono>
 #include <cstdio>
 #include <fstream>

@@ -145,7 +145,8 @@ TEST(Pose, SimpleSkin) {
   if (file.empty()) GTEST_SKIP() << "no animated/SimpleSkin.gltf in UMBRAGE_SCENES_DIR";
   const auto scene = app::import_gltf(file);
   ASSERT_LOADS(scene);
-  // At 1 s the second joint, at (0, 1, 0), is turned a quarter about z; both inverse bind matrices move by (-0.5, -1, 0).
+  // At 1 s the second joint, at (0, 1, 0), is turned a quarter about z; both inverse bind matrices move by (-0.5, -1,
+  // 0).
   const app::Pose pose = app::pose(scene.value(), 1);
   ASSERT_EQ(pose.instances.size(), 1u);
   EXPECT_EQ(pose.instances[0].world_from_mesh, glm::mat4(1));
