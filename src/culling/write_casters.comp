@@ -33,8 +33,9 @@ void main() {
   uint last_entry = gl_NumWorkGroups.x * TraverseThreads - 1u;
   next_pair = Uints(push.counts).v[entry];
   uint end = entry < last_entry ? Uints(push.counts).v[entry + 1u] : Counters(push.counters).counters.caster_pairs;
+  if (end == next_pair) return;
   if (end > Counters(push.counters).counters.pair_limit) Uints(push.used).v[light_slot] = LightIsUsed | LightLacksCasters;
-  if (end == next_pair || end <= push.window_first || next_pair >= push.window_first + push.window_size) return;
+  if (end <= push.window_first || next_pair >= push.window_first + push.window_size) return;
   light = Lights(push.lights).v[light_slot];
   walk(light, gl_LocalInvocationIndex);
   add_wide(batches_drawn, false);

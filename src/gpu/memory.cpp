@@ -137,6 +137,7 @@ Result<Buffer> Buffer::create(const Device& device, Memory& memory, VkDeviceSize
   buffer.device_ = &device;
   buffer.name_ = name;
   buffer.size_ = info.size;
+  buffer.sync.resource = memory.name_resource();
   VkMemoryRequirements needs;
   device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer.handle_, &needs);
   auto allocation = memory.allocate(needs, kind, name);
@@ -175,6 +176,7 @@ Result<DepthImage> DepthImage::create(const Device& device, Memory& memory, uint
   if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateImage", name);
   image.device_ = &device;
   image.width_ = width, image.height_ = height, image.name_ = name;
+  image.sync.resource = memory.name_resource();
   VkMemoryRequirements needs;
   device.vk().vkGetImageMemoryRequirements(device.handle(), image.handle_, &needs);
   auto allocation = memory.allocate(needs, MemoryKind::device, name, true);

@@ -1,5 +1,6 @@
 // Device memory in few large blocks; buffers and images take ranges of them.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,11 +18,17 @@ enum class MemoryKind : uint8_t {
 
 /// Last accesses of a resource, from which the next barrier follows (recorder.cpp).
 struct SyncState {
+  /// A barrier makes a write visible to each of its stages through each of its accesses.
+  struct Visible {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+  };
   VkPipelineStageFlags2 write_stages = 0, read_stages = 0;  ///< Of the last write and of the reads since.
   VkAccessFlags2 write_access = 0;
-  VkPipelineStageFlags2 visible_stages = 0;                 ///< To which the last write has been made visible.
-  VkAccessFlags2 visible_access = 0;
+  std::array<Visible, 8> visible{};                         ///< To what the last write has been made visible.
+  uint32_t visible_count = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  uint64_t resource = 0;                                    ///< Its name in the hazard log; handles are used again.
 };
 
 class Memory;
@@ -51,6 +58,8 @@ class Memory {
   /// own_block: the range shares its block with nothing (images: bufferImageGranularity never matters).
   Result<Allocation> allocate(const VkMemoryRequirements&, MemoryKind, std::string_view what, bool own_block = false);
   VkDeviceSize bytes_in_use(MemoryKind kind) const { return in_use_[static_cast<size_t>(kind)]; }
+  /// A number that no other resource has, for SyncState.
+  uint64_t name_resource() { return ++resources_; }
 
  private:
   friend class Allocation;
@@ -70,6 +79,7 @@ class Memory {
   const Device& device_;
   std::vector<Block> blocks_;
   VkDeviceSize in_use_[3] = {0, 0, 0};
+  uint64_t resources_ = 0;
 };
 
 /// A buffer known by its address. Move-only.

@@ -5,19 +5,27 @@
 
 namespace umbrage::gpu {
 
-namespace {
 struct AccessInfo {
   VkPipelineStageFlags2 stages;
   VkAccessFlags2 access;
-  VkImageLayout layout;
+  VkImageLayout layout;  // of images
   bool writes;
 };
 
+/// What must be waited for before an access.
+struct Barrier {
+  VkPipelineStageFlags2 src_stages = 0;
+  VkAccessFlags2 src_access = 0;
+  VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  bool needed = false;
+};
+
+namespace {
 AccessInfo info_of(Access access) {
   switch (access) {
     case Access::compute_read: return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
     case Access::compute_write: return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL, true};
-    case Access::vertex_read: return {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_GENERAL, false};
+    case Access::vertex_read: return {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
     case Access::fragment_read: return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
     case Access::indirect_read: return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
     case Access::index_read: return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
@@ -32,88 +40,103 @@ AccessInfo info_of(Access access) {
   return {};
 }
 
-struct Barrier {
-  VkPipelineStageFlags2 src_stages = 0;
-  VkAccessFlags2 src_access = 0;
-  bool needed = false;
-};
+bool is_visible(const SyncState& state, const AccessInfo& now) {
+  for (uint32_t i = 0; i < state.visible_count; ++i) {
+    const SyncState::Visible& to = state.visible[i];
+    if ((to.stages & now.stages) == now.stages && (to.access & now.access) == now.access) return true;
+  }
+  return false;
+}
 
-/// What must be waited for before `now`, and the state after it.
-Barrier advance(SyncState& state, const AccessInfo& now) {
-  Barrier barrier;
-  if (now.writes) {
+/// The barrier that an access needs, and the state after it. A change of layout is a write that the access follows.
+Barrier advance(SyncState& state, const AccessInfo& now, bool is_image) {
+  Barrier barrier{.old_layout = state.layout};
+  const bool changes_layout = is_image && state.layout != now.layout;
+  if (now.writes || changes_layout) {
     barrier.src_stages = state.write_stages | state.read_stages;
     barrier.src_access = state.write_access;
-    barrier.needed = barrier.src_stages != 0;
-    state.write_stages = now.stages, state.write_access = now.access;
-    state.read_stages = 0, state.visible_stages = 0, state.visible_access = 0;
-    return barrier;
+    barrier.needed = changes_layout || barrier.src_stages != 0;
+    state.write_stages = now.stages;
+    state.write_access = now.writes ? now.access : 0;
+    state.read_stages = 0, state.visible_count = 0;
+    if (is_image) state.layout = now.layout;
+  } else if (state.write_stages && !is_visible(state, now)) {
+    barrier.src_stages = state.write_stages;
+    barrier.src_access = state.write_access;
+    barrier.needed = true;
   }
-  const bool visible = (state.visible_stages & now.stages) == now.stages && (state.visible_access & now.access) == now.access;
-  if (state.write_stages && !visible) {
-    barrier = {state.write_stages, state.write_access, true};
-    // Visibility is a set of (stage, access) pairs; keeping their product would claim pairs that no barrier made.
-    state.visible_stages = now.stages, state.visible_access = now.access;
-  }
+  if (now.writes) return barrier;
+  // When there is no room left to remember, a later read has one barrier too many.
+  if (barrier.needed && state.visible_count < state.visible.size()) state.visible[state.visible_count++] = {now.stages, now.access};
   state.read_stages |= now.stages;
   return barrier;
 }
 }  // namespace
 
+Pass::Pass(Recorder& recorder, const char* name)
+    : recorder_(recorder), name_(name), number_(recorder.log_ ? static_cast<uint32_t>(recorder.log_->size()) : 0) {}
+
 VkDeviceAddress Pass::read(const Buffer& buffer, Access access) {
-  declare(buffer.sync, &buffer.sync, buffer.name(), buffer.handle(), nullptr, access);
+  declare(buffer, info_of(access));
   return buffer.address();
 }
 VkDeviceAddress Pass::write(const Buffer& buffer, Access access) {
-  declare(buffer.sync, &buffer.sync, buffer.name(), buffer.handle(), nullptr, access);
+  declare(buffer, info_of(access));
   return buffer.address();
 }
 void Pass::image(const DepthImage& image, Access access) {
-  declare(image.sync, &image.sync, image.name(), VK_NULL_HANDLE, &image, access);
+  AccessInfo now = info_of(access);
+  if (now.access == VK_ACCESS_2_SHADER_STORAGE_READ_BIT) now.access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+  declare(image, now);
 }
 
-void Pass::declare(SyncState& state, const void* identity, const char* name, VkBuffer buffer, const DepthImage* image, Access access) {
-  const AccessInfo now = info_of(access);
-  const VkImageLayout old_layout = state.layout;
-  Barrier barrier = advance(state, now);
-  if (image && old_layout != now.layout) {
-    barrier.needed = true;
-    state.layout = now.layout;
-    if (!now.writes) {  // a transition writes: later accesses wait for it as for the write before it
-      if (!barrier.src_stages) barrier.src_stages = state.write_stages | state.read_stages, barrier.src_access = state.write_access;
-      state.write_stages = now.stages, state.write_access = 0;
-      state.visible_stages = now.stages, state.visible_access = now.access;
-    }
-  }
+void Pass::declare(const Buffer& buffer, const AccessInfo& now) {
+  const Barrier barrier = advance(buffer.sync, now, false);
+  log(buffer.sync, buffer.name(), now, barrier);
+  if (!barrier.needed) return;
+  assert(buffer_count_ < buffers_.size());
+  VkBufferMemoryBarrier2& out = buffers_[buffer_count_++];
+  out = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+  out.srcStageMask = barrier.src_stages, out.srcAccessMask = barrier.src_access;
+  out.dstStageMask = now.stages, out.dstAccessMask = now.access;
+  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  out.buffer = buffer.handle();
+  out.size = VK_WHOLE_SIZE;
+}
+
+void Pass::declare(const DepthImage& image, const AccessInfo& now) {
+  const Barrier barrier = advance(image.sync, now, true);
+  log(image.sync, image.name(), now, barrier);
+  if (!barrier.needed) return;
+  assert(image_count_ < images_.size());
+  VkImageMemoryBarrier2& out = images_[image_count_++];
+  out = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  out.srcStageMask = barrier.src_stages, out.srcAccessMask = barrier.src_access;
+  out.dstStageMask = now.stages, out.dstAccessMask = now.access;
+  out.oldLayout = barrier.old_layout, out.newLayout = now.layout;
+  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  out.image = image.handle();
+  out.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+}
+
+void Pass::log(const SyncState& state, const char* resource_name, const AccessInfo& now, const Barrier& barrier) const {
   HazardLog* log = recorder_.log_;
+  if (!log) return;
+  const bool is_image = state.layout != VK_IMAGE_LAYOUT_UNDEFINED;
+  HazardEvent event{.resource = state.resource, .resource_name = resource_name, .pass = name_, .pass_number = number_};
   if (barrier.needed) {
-    if (image) {
-      assert(image_count_ < images_.size());
-      VkImageMemoryBarrier2& out = images_[image_count_++];
-      out = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-      out.srcStageMask = barrier.src_stages, out.srcAccessMask = barrier.src_access;
-      out.dstStageMask = now.stages, out.dstAccessMask = now.access;
-      out.oldLayout = old_layout, out.newLayout = now.layout;
-      out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-      out.image = image->handle();
-      out.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-    } else {
-      assert(buffer_count_ < buffers_.size());
-      VkBufferMemoryBarrier2& out = buffers_[buffer_count_++];
-      out = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-      out.srcStageMask = barrier.src_stages, out.srcAccessMask = barrier.src_access;
-      out.dstStageMask = now.stages, out.dstAccessMask = now.access;
-      out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-      out.buffer = buffer;
-      out.size = VK_WHOLE_SIZE;
-    }
-    if (log)
-      log->push_back({.kind = HazardEvent::Kind::barrier, .resource = identity, .resource_name = name, .pass = name_,
-                      .stages = barrier.src_stages, .dst_stages = now.stages, .access = barrier.src_access, .dst_access = now.access});
+    event.kind = HazardEvent::Kind::barrier;
+    event.stages = barrier.src_stages, event.access = barrier.src_access;
+    event.dst_stages = now.stages, event.dst_access = now.access;
+    if (is_image) event.old_layout = barrier.old_layout, event.layout = now.layout;
+    log->push_back(event);
   }
-  if (log)
-    log->push_back({.kind = HazardEvent::Kind::access, .resource = identity, .resource_name = name, .pass = name_,
-                    .writes = now.writes, .stages = now.stages, .access = now.access});
+  event.kind = HazardEvent::Kind::access;
+  event.writes = now.writes;
+  event.stages = now.stages, event.access = now.access;
+  event.dst_stages = 0, event.dst_access = 0;
+  if (is_image) event.layout = now.layout;
+  log->push_back(event);
 }
 
 void Pass::flush() {
@@ -158,52 +181,10 @@ void Pass::dispatch_indirect_bound(const Buffer& arguments, VkDeviceSize offset)
 }
 
 void Recorder::publish(std::span<const Buffer* const> buffers, VkPipelineStageFlags2 stages, const DepthImage* image) {
-  std::array<VkBufferMemoryBarrier2, 24> barriers{};
-  uint32_t count = 0;
-  VkImageMemoryBarrier2 image_barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-  const auto note = [&](const SyncState& state, const char* name) {
-    if (!log_) return;
-    log_->push_back({.kind = HazardEvent::Kind::barrier, .resource = &state, .resource_name = name, .pass = "publish",
-                     .stages = state.write_stages | state.read_stages, .dst_stages = stages, .access = state.write_access,
-                     .dst_access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
-    log_->push_back({.kind = HazardEvent::Kind::access, .resource = &state, .resource_name = name, .pass = "publish",
-                     .stages = stages, .access = VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
-  };
-  for (const Buffer* buffer : buffers) {
-    assert(count < barriers.size());
-    VkBufferMemoryBarrier2& out = barriers[count++];
-    out = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-    out.srcStageMask = buffer->sync.write_stages ? buffer->sync.write_stages : VK_PIPELINE_STAGE_2_NONE;
-    out.srcAccessMask = buffer->sync.write_access;
-    out.dstStageMask = stages;
-    out.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
-    out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    out.buffer = buffer->handle();
-    out.size = VK_WHOLE_SIZE;
-    note(buffer->sync, buffer->name());
-    buffer->sync.read_stages |= stages;
-  }
-  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  info.bufferMemoryBarrierCount = count;
-  info.pBufferMemoryBarriers = barriers.data();
-  if (image) {
-    image_barrier.srcStageMask = image->sync.write_stages | image->sync.read_stages;
-    image_barrier.srcAccessMask = image->sync.write_access;
-    image_barrier.dstStageMask = stages;
-    image_barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    image_barrier.oldLayout = image->sync.layout;
-    image_barrier.newLayout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
-    image_barrier.srcQueueFamilyIndex = image_barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    image_barrier.image = image->handle();
-    image_barrier.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-    info.imageMemoryBarrierCount = 1;
-    info.pImageMemoryBarriers = &image_barrier;
-    note(image->sync, image->name());
-    image->sync = {.write_stages = stages, .visible_stages = stages,
-                   .visible_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, .layout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
-    image->sync.read_stages = stages;
-  }
-  device_.vk().vkCmdPipelineBarrier2(commands_, &info);
+  Pass shown = pass("publish");
+  for (const Buffer* buffer : buffers) shown.declare(*buffer, {stages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false});
+  if (image) shown.declare(*image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false});
+  shown.flush();
 }
 
 Scope::Scope(Recorder& recorder, const char* name) : recorder_(recorder) {

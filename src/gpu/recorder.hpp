@@ -22,6 +22,8 @@ enum class Access : uint8_t {
 };
 
 class Recorder;
+struct AccessInfo;
+struct Barrier;
 
 /// The commands between two sets of barriers. Declare accesses first, then record; a pass ends when the next begins.
 class Pass {
@@ -50,8 +52,10 @@ class Pass {
 
  private:
   friend class Recorder;
-  Pass(Recorder& recorder, const char* name) : recorder_(recorder), name_(name) {}
-  void declare(SyncState&, const void* identity, const char* name, VkBuffer, const DepthImage*, Access);
+  Pass(Recorder&, const char* name);
+  void declare(const Buffer&, const AccessInfo&);
+  void declare(const DepthImage&, const AccessInfo&);
+  void log(const SyncState&, const char* resource_name, const AccessInfo&, const Barrier&) const;
   void flush();
   void bind(const Pipeline&, const void* push, size_t size);
   void dispatch_bound(uint32_t x, uint32_t y, uint32_t z);
@@ -59,6 +63,7 @@ class Pass {
 
   Recorder& recorder_;
   const char* name_;
+  uint32_t number_;  ///< In the hazard log.
   std::array<VkBufferMemoryBarrier2, 40> buffers_;
   std::array<VkImageMemoryBarrier2, 2> images_;
   uint32_t buffer_count_ = 0, image_count_ = 0;
@@ -83,7 +88,7 @@ class Recorder {
       : device_(device), factory_(factory), commands_(commands), timers_(timers), sets_{frame_set, mask_set}, log_(log) {}
   Pass pass(const char* name) { return {*this, name}; }
   const Device& device() const { return device_; }
-  /// Makes a buffer's content visible to a stage outside of the library.
+  /// Makes contents visible to stages outside of the library.
   void publish(std::span<const Buffer* const>, VkPipelineStageFlags2 stages, const DepthImage* image);
 
  private:

@@ -1,4 +1,4 @@
-// One copy command per run of neighbouring edits.
+// One copy command per run of edits of a buffer, one region in it per run of neighbouring edits.
 #include "gpu/uploader.hpp"
 
 #include <algorithm>
@@ -30,7 +30,8 @@ void GrownBuffer::record(Recorder& recorder, RetireQueue& retired, uint64_t seri
 
 Result<void> Uploader::begin(const Device& device, Memory& memory, VkDeviceSize bytes, const char* name) {
   used_ = 0;
-  copies_.clear();
+  regions_.clear();
+  runs_.clear();
   constexpr VkDeviceSize kKeep = 1 << 20;
   const bool far_too_large = staging_ && staging_.size() > kKeep && staging_.size() / 8 > bytes;
   if (staging_ && staging_.size() >= bytes && !far_too_large) return {};
@@ -53,23 +54,28 @@ void Uploader::copy(const Buffer& target, VkDeviceSize offset, const void* data,
   if (bytes == 0) return;
   const VkDeviceSize at = used_;
   std::memcpy(stage(bytes), data, bytes);
-  if (!copies_.empty()) {
-    Copy& last = copies_.back();
-    if (last.target == &target && last.region.dstOffset + last.region.size == offset && last.region.srcOffset + last.region.size == at) {
-      last.region.size += bytes;
+  if (runs_.empty() || runs_.back().target != &target) runs_.push_back({&target, static_cast<uint32_t>(regions_.size()), 0});
+  Run& run = runs_.back();
+  if (run.regions > 0) {
+    VkBufferCopy& last = regions_.back();
+    if (last.dstOffset + last.size == offset && last.srcOffset + last.size == at) {
+      last.size += bytes;
       return;
     }
   }
-  copies_.push_back({&target, {at, offset, bytes}});
+  regions_.push_back({at, offset, bytes});
+  ++run.regions;
 }
 
 void Uploader::record(Recorder& recorder) {
-  for (const Copy& copy : copies_) {
+  for (const Run& run : runs_) {
     Pass pass = recorder.pass("upload");
-    pass.write(*copy.target, Access::transfer_write);
-    recorder.device().vk().vkCmdCopyBuffer(pass.commands(), staging_.handle(), copy.target->handle(), 1, &copy.region);
+    pass.write(*run.target, Access::transfer_write);
+    recorder.device().vk().vkCmdCopyBuffer(pass.commands(), staging_.handle(), run.target->handle(), run.regions,
+                                           &regions_[run.first_region]);
   }
-  copies_.clear();
+  regions_.clear();
+  runs_.clear();
 }
 
 }  // namespace umbrage::gpu

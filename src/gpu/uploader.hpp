@@ -44,10 +44,12 @@ class Uploader {
   void record(Recorder&);
 
  private:
-  struct Copy { const Buffer* target; VkBufferCopy region; };
+  /// Consecutive copies into one buffer: one command.
+  struct Run { const Buffer* target; uint32_t first_region, regions; };
   Buffer staging_;
   VkDeviceSize used_ = 0;
-  std::vector<Copy> copies_;
+  std::vector<VkBufferCopy> regions_;
+  std::vector<Run> runs_;
 };
 
 }  // namespace umbrage::gpu
