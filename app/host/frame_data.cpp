@@ -13,28 +13,37 @@ using umbrage::Result;
 
 namespace {
 
-/// Ambient light stands in for what bounces: this share of all lights' flux, spread over the scene's surface.
-constexpr float ambient_share = 0.04f;
+/// Ambient light stands in for what bounces: this share of the mean irradiance within the lights' reach.
+constexpr float ambient_share = 0.1f;
 /// A scene without lights is shown by this ambient irradiance alone.
 constexpr glm::vec3 ambient_without_lights{1.0f};
 
-glm::vec3 ambient_irradiance(std::span<const ActiveLight> lights, double area) {
-  if (lights.empty() || area <= 0) return ambient_without_lights;
-  glm::vec3 irradiance{0};
+/// 1/d² averages to 3/r² over a ball of radius r. Lights count by the volume of the scene that they light; where their
+/// volumes together exceed the scene's they overlap and add up.
+glm::vec3 ambient_irradiance(std::span<const ActiveLight> lights, const SceneExtent& extent) {
+  if (lights.empty()) return ambient_without_lights;
+  const glm::vec3 center = 0.5f * (extent.lowest + extent.highest);
+  const float scene_radius = 0.5f * glm::length(extent.highest - extent.lowest);
+  glm::vec3 directional{0}, sum{0};
+  float volume = 0;
   for (const ActiveLight& light : lights) {
     const glm::vec3 intensity = light.color * light.intensity;
     if (light.kind == LightKind::directional) {
-      irradiance += intensity * 0.25f;  // A sphere's cross section over its surface.
+      directional += intensity * 0.25f;  // A sphere's cross section over its surface.
       continue;
     }
-    const float solid_angle = light.kind == LightKind::point
-                                  ? 4.0f * std::numbers::pi_v<float>
-                                  : 2.0f * std::numbers::pi_v<float> * (1.0f - std::cos(light.outer_cone));
-    irradiance += intensity * solid_angle / static_cast<float>(area);
+    const float share_of_sphere = light.kind == LightKind::point ? 1.0f : 0.5f * (1.0f - std::cos(light.outer_cone));
+    const float reach = std::min(light.range, std::max(scene_radius, glm::length(light.position - center)));
+    const float inside = std::min(reach, scene_radius);
+    const float lit = share_of_sphere * inside * inside * inside;
+    sum += lit * 3.0f / std::max(reach * reach, 1e-9f) * intensity;
+    volume += lit;
   }
+  const float lit_volume = std::min(volume, scene_radius * scene_radius * scene_radius);
+  const glm::vec3 mean = directional + sum / std::max(lit_volume, 1e-20f);
   // Bounces wash colour out: half of it is the mean's grey.
-  const float grey = (irradiance.r + irradiance.g + irradiance.b) / 3.0f;
-  return ambient_share * glm::mix(irradiance, glm::vec3(grey), 0.5f);
+  const float grey = (mean.r + mean.g + mean.b) / 3.0f;
+  return ambient_share * glm::mix(mean, glm::vec3(grey), 0.5f);
 }
 
 gpu::GpuLight gpu_light(const ActiveLight& light) {
@@ -101,8 +110,6 @@ SceneExtent measure_extent(const Pose& pose, const SceneBuffers& buffers, std::s
       extent.lowest = glm::min(extent.lowest, world);
       extent.highest = glm::max(extent.highest, world);
     }
-    const double volume_scale = std::abs(static_cast<double>(glm::determinant(glm::mat3(matrix))));
-    extent.area += primitive.area * std::cbrt(volume_scale * volume_scale);
   }
   if (items.empty()) extent.lowest = extent.highest = glm::vec3(0);
   return extent;
@@ -175,7 +182,7 @@ Result<void> FrameData::set_lights(std::span<const ActiveLight> lights) {
   for (const ActiveLight& light : lights) table.push_back(gpu_light(light));
   lights_.write(std::span<const gpu::GpuLight>(table));
   frame_.light_count = static_cast<uint32_t>(lights.size());
-  frame_.ambient = ambient_irradiance(lights, extent_.area);
+  frame_.ambient = ambient_irradiance(lights, extent_);
   return {};
 }
 

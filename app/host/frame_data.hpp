@@ -15,10 +15,9 @@ struct CameraMatrices {
   glm::vec4 lens_depth{0};  ///< As GpuFrame::lens_depth.
 };
 
-/// What is known of a scene as a whole, at its first pose.
+/// World box of all items at the scene's first pose.
 struct SceneExtent {
-  glm::vec3 lowest{0}, highest{0};  ///< World box of all items.
-  double area = 0;                  ///< Of all triangles, square metres.
+  glm::vec3 lowest{0}, highest{0};
 };
 SceneExtent measure_extent(const Pose&, const SceneBuffers&, std::span<const SceneItem>);
 

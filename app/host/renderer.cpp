@@ -65,6 +65,16 @@ Result<void> take(Result<T> result, T& place) {
   return {};
 }
 
+/// Passes that run several times in a frame count together.
+void add_pass(std::vector<std::pair<std::string, double>>& passes, const umbrage::PassTime& pass) {
+  const auto found = std::find_if(passes.begin(), passes.end(), [&](const auto& p) { return p.first == pass.name; });
+  if (found != passes.end()) {
+    found->second += pass.gpu_ms;
+  } else {
+    passes.emplace_back(pass.name, pass.gpu_ms);
+  }
+}
+
 double ms_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -213,7 +223,7 @@ Result<FrameReport> Renderer::State::report() const {
   for (const auto& [name, ms] : times->passes) {
     made.passes.emplace_back(name, ms);
     if (std::string_view(name) != "gbuffer") continue;
-    for (const umbrage::PassTime& pass : made.statistics.passes) made.passes.emplace_back(pass.name, pass.gpu_ms);
+    for (const umbrage::PassTime& pass : made.statistics.passes) add_pass(made.passes, pass);
   }
   made.statistics.passes = {};
   const gpu::GpuCounters& counters = data.read_counters();

@@ -63,12 +63,6 @@ void measure(const Primitive& primitive, UploadedPrimitive& uploaded) {
     uploaded.lowest = glm::min(uploaded.lowest, p);
     uploaded.highest = glm::max(uploaded.highest, p);
   }
-  for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-    const glm::vec3 a = primitive.positions[primitive.indices[i]];
-    const glm::vec3 b = primitive.positions[primitive.indices[i + 1]];
-    const glm::vec3 c = primitive.positions[primitive.indices[i + 2]];
-    uploaded.area += 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a)));
-  }
 }
 
 gpu::GpuTexture gpu_texture(const TextureTable& textures, const Texture& texture, ColorSpace space) {

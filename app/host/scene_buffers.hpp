@@ -14,7 +14,6 @@ struct UploadedPrimitive {
   VkDeviceAddress morph_positions = 0, morph_normals = 0;  ///< vec3[target_count][vertex_count]
   uint32_t material = 0;
   glm::vec3 lowest{0}, highest{0};  ///< Mesh space.
-  double area = 0;                  ///< Mesh space, square metres.
 };
 
 class SceneBuffers {

@@ -61,7 +61,7 @@ vec3 reflect_light(Brdf brdf, vec3 normal, vec3 to_eye, vec3 to_light) {
 /// All lights of a cluster on one surface point.
 vec3 shade(Frame frame, UmbrageFrame shadows, UmbrageCluster cluster, vec3 position_ws, vec3 geometric_normal,
            vec3 normal, vec3 to_eye, Brdf brdf) {
-  // Bounced light, more from above: a share of all lights' flux spread over the scene (ambient_irradiance in frame_data.cpp).
+  // Bounced light, more from above (ambient_irradiance in frame_data.cpp).
   vec3 sum = frame.data.ambient * (0.75 + 0.25 * normal.y) * (brdf.diffuse_color + 0.5 * brdf.f0) / Pi;
   Lights lights = Lights(frame.data.lights);
   for (uint i = 0u; i < cluster.count; ++i) {

@@ -22,11 +22,10 @@ vec3 agx_contrast(vec3 x) {
   return 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
 }
 
-/// Display-encoded. The slight lift of saturation and contrast is AgX's own "punchy" look at a third of its strength.
+/// Display-encoded, with saturation lifted a little: AgX alone greys coloured lamps.
 vec3 agx(vec3 linear) {
   vec3 stops = log2(max(agx_inset * linear, vec3(1e-10)));
   vec3 encoded = agx_contrast(clamp((stops - first_stop) / (last_stop - first_stop), 0.0, 1.0));
-  encoded = pow(max(encoded, vec3(0.0)), vec3(1.1));
   encoded = mix(vec3(luminance(encoded)), encoded, 1.15);
   return clamp(agx_outset * encoded, 0.0, 1.0);
 }
