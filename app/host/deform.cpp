@@ -76,7 +76,6 @@ Result<void> Deformer::create_buffers(const GpuContext& context, const Pose& pos
 }
 
 std::span<const uint32_t> Deformer::update(const Pose& pose, std::span<const SceneItem> items) {
-  changed_jobs_.clear();
   changed_items_.clear();
   const auto take = [this](size_t at, const void* values, size_t bytes) {
     if (bytes == 0 || std::memcmp(last_inputs_.data() + at, values, bytes) == 0) return false;
@@ -84,28 +83,25 @@ std::span<const uint32_t> Deformer::update(const Pose& pose, std::span<const Sce
     std::memcpy(inputs_.mapped() + at, values, bytes);
     return true;
   };
-  for (uint32_t j = 0; j < jobs_.size(); ++j) {
-    const Job& job = jobs_[j];
+  for (Job& job : jobs_) {
     const PosedInstance& instance = pose.instances[items[job.item].instance];
-    bool changed = take(job.weights_at, instance.weights.data(), job.weight_count * sizeof(float));
+    if (take(job.weights_at, instance.weights.data(), job.weight_count * sizeof(float))) job.pending = true;
     if (job.joint_count > 0) {
       const auto& joints = pose.joint_matrices[static_cast<size_t>(instance.skin)];
-      changed = take(job.joints_at, joints.data(), job.joint_count * sizeof(glm::mat4)) || changed;
+      if (take(job.joints_at, joints.data(), job.joint_count * sizeof(glm::mat4))) job.pending = true;
     }
-    if (!changed && !first_) continue;
-    changed_jobs_.push_back(j);
-    changed_items_.push_back(job.item);
+    if (job.pending) changed_items_.push_back(job.item);
   }
-  first_ = false;
   return changed_items_;
 }
 
-void Deformer::record(const GpuContext& context, VkCommandBuffer commands, VkPipelineLayout layout) const {
-  if (changed_jobs_.empty()) return;
+void Deformer::record(const GpuContext& context, VkCommandBuffer commands, VkPipelineLayout layout) {
+  if (changed_items_.empty()) return;
   context.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-  for (const uint32_t j : changed_jobs_) {
-    push_constants(context, commands, layout, jobs_[j].push);
-    dispatch_items(context, commands, jobs_[j].push.vertex_count, group_size);
+  for (Job& job : jobs_) {
+    if (!std::exchange(job.pending, false)) continue;
+    push_constants(context, commands, layout, job.push);
+    dispatch_items(context, commands, job.push.vertex_count, group_size);
   }
   memory_barrier(context, commands, compute_write, any_shader_read);
 }

@@ -42,8 +42,6 @@ umbrage::HeadlessDesc headless_desc(const std::string& device, bool validate) {
   desc.validate = validate;
   desc.features.multiDrawIndirect = VK_TRUE;
   desc.features.drawIndirectFirstInstance = VK_TRUE;
-  desc.features.fragmentStoresAndAtomics = VK_TRUE;
-  desc.features.vertexPipelineStoresAndAtomics = VK_TRUE;
   desc.features.shaderInt64 = VK_TRUE;
   desc.features_12.bufferDeviceAddress = VK_TRUE;
   desc.features_12.scalarBlockLayout = VK_TRUE;

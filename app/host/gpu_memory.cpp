@@ -1,4 +1,4 @@
-// The one implementation of volk and of the Vulkan Memory Allocator in the program; both load their functions at run time.
+// The program's one implementation of volk and of the Vulkan Memory Allocator; both load their functions at run time.
 #define VOLK_IMPLEMENTATION
 #include <volk.h>
 

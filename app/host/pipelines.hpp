@@ -40,7 +40,7 @@ void push_constants(const GpuContext& context, VkCommandBuffer commands, VkPipel
 /// Groups of `size` that cover `items`.
 constexpr uint32_t groups(uint32_t items, uint32_t size) { return (items + size - 1) / size; }
 
-/// One invocation an item, in rows of groups so that no count of items passes the device's limit on groups along an axis.
+/// One invocation an item, in rows of groups: no count of items passes the device's limit on groups along an axis.
 inline void dispatch_items(const GpuContext& context, VkCommandBuffer commands, uint32_t items, uint32_t group_size) {
   constexpr uint32_t row = 1024;
   const uint32_t count = groups(items, group_size);

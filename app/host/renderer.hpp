@@ -76,13 +76,17 @@ class Renderer {
 
   /// RGBA8, sRGB-encoded, tone mapped, row 0 at the top (or the debug picture).
   umbrage::Result<std::vector<uint8_t>> read_image();
-  /// height × width × 3 floats. position: world, NaN where nothing is. normal: geometric, unit, world. color: linear, before tone mapping.
+  /// height × width × 3 floats. position: world, NaN where nothing is. normal: geometric, unit, world, zero where nothing
+  /// is. color: linear, before tone mapping.
   umbrage::Result<std::vector<float>> read_position();
   umbrage::Result<std::vector<float>> read_normal();
   umbrage::Result<std::vector<float>> read_color();
-  /// For lights first … first+count-1, each height × width bytes. visibility: 0…254 = visibility × 254, 255 = not evaluated.
-  /// band_px (may be empty): twice the larger extent in pixels of the projected shadow texel used there, rounded up, at most 255.
-  umbrage::Result<void> read_visibility(uint32_t first, uint32_t count, std::span<uint8_t> visibility, std::span<uint8_t> band_px);
+  /// For lights first … first+count-1, each height × width bytes. visibility: 0…254 = visibility × 254, 255 = not
+  /// evaluated; whether a pair is evaluated follows from the light alone, so a light that a cluster lost reads as 0.
+  /// band_px (may be empty): twice the larger extent in pixels of the projected shadow texel used there, rounded up, at
+  /// most 255; 0 where not evaluated.
+  umbrage::Result<void> read_visibility(uint32_t first, uint32_t count, std::span<uint8_t> visibility,
+                                        std::span<uint8_t> band_px);
 
   std::string device_name() const;
   std::string driver() const;

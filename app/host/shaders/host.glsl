@@ -19,7 +19,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Vec3s { vec3
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Vec4s { vec4 at[]; };
 
 /// Index of this invocation in a dispatch_items(); the local size is one-dimensional.
-#define ITEM_INDEX ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
+#define ITEM_INDEX \
+  ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
 
 const float Pi = 3.14159265358979;
 

@@ -1,4 +1,4 @@
-// Structs that the host's C++ and GLSL share, in scalar layout. Addresses are 64-bit; spaces and units are in the names.
+// Structs that the host's C++ and GLSL share, in scalar layout. Addresses are 64-bit; names tell spaces and units.
 #ifndef APP_HOST_SHARED_H
 #define APP_HOST_SHARED_H
 

@@ -1,4 +1,4 @@
-// Punctual lights (KHR_lights_punctual) on metallic-roughness surfaces (glTF 2.0, appendix B), with umbrage's visibility.
+// Punctual lights (KHR_lights_punctual) on metallic-roughness surfaces (glTF 2.0, appendix B) with umbrage's visibility.
 #define UMBRAGE_SET 2
 #include "umbrage/shaders/umbrage.glsl"
 

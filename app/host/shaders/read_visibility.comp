@@ -1,5 +1,5 @@
-// Visibility of lights first … first + count - 1 as bytes, light by light, one thread four neighbouring pixels. Whether a
-// pair is evaluated is decided from the light alone: a light that umbrage leaves out of the pixel's cluster reads as 0.
+// Visibility of lights first … first + count - 1 as bytes, light by light; a thread has four neighbouring pixels. Whether
+// a pair is evaluated follows from the light alone: a light that umbrage leaves out of the pixel's cluster reads as 0.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"

@@ -1,4 +1,4 @@
-// Debug pictures instead of the image: clusters, lights per pixel, normals, depth; under explicit bounds, the image dimmed.
+// Debug pictures instead of the image: clusters, lights per pixel, normals, depth; for explicit bounds, it dimmed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
@@ -15,7 +15,8 @@ const ivec2 bar_size = ivec2(256, 14);
 const ivec2 bar_margin = ivec2(40, 16);
 const int glyph_scale = 3;
 // 3x5 digits, rows from the top, the high bit first.
-const uint digits[10] = uint[](0x7b6fu, 0x2c97u, 0x73e7u, 0x73cfu, 0x5bc9u, 0x79cfu, 0x79efu, 0x7249u, 0x7befu, 0x7bcfu);
+const uint digits[10] =
+    uint[](0x7b6fu, 0x2c97u, 0x73e7u, 0x73cfu, 0x5bc9u, 0x79cfu, 0x79efu, 0x7249u, 0x7befu, 0x7bcfu);
 
 /// Is the pixel inside the decimal number whose top left corner is at `corner`?
 bool in_number(ivec2 pixel, ivec2 corner, uint number) {

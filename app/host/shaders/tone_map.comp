@@ -1,4 +1,4 @@
-// Linear radiance to the picture: exposure, background, AgX curve (T. Sobotka; polynomial fit by B. Wrensch), sRGB bytes.
+// Linear radiance to the picture: exposure, background, AgX (T. Sobotka; polynomial fit by B. Wrensch), sRGB bytes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
