@@ -27,8 +27,6 @@ void main() {
   }
   if (thread != 127u) return;
   uint clusters = min(before, Frame(push.frame).record.cluster_capacity);
-  // Clusters beyond the capacity take all lights, so all lights need their maps.
-  if (before > clusters) Counters(push.counters).counters.all_lights_used = 1u;
   Counters(push.counters).counters.clusters_found = before;
   Counters(push.counters).counters.clusters = clusters;
   Counters(push.counters).counters.cluster_groups[0] = (clusters + 63u) / 64u;

@@ -22,7 +22,10 @@ void main() {
   if (slot >= push.light_slots) return;
   LightRecord light = Lights(push.lights).v[slot];
   if (light.type == NoIndex) return;
-  bool used = push.all_lights != 0u || Counters(push.counters).counters.all_lights_used != 0u || Uints(push.used).v[slot] != 0u;
+  // Clusters beyond the capacity have no list: they are looked up with every light.
+  bool all_used = push.all_lights != 0u || Counters(push.counters).counters.all_lights_used != 0u ||
+                  Counters(push.counters).counters.clusters_found > Counters(push.counters).counters.clusters;
+  bool used = all_used || Uints(push.used).v[slot] != 0u;
   if (used) {
     atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
     Uints(push.used).v[slot] = LightIsUsed;
