@@ -109,7 +109,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.fill_block(block, *record);
     s.current->uploader.copy(s.frame->block, 0, &block, sizeof block);
     shared::FrameCounters counters{};
-    counters.pair_limit = s.plan.caster_rounds * s.frame->culling.pair_capacity();
+    counters.pair_limit = s.plan.caster_rounds * s.frame->culling.capacity();
     s.current->uploader.copy(s.frame->counters, 0, &counters, sizeof counters);
     s.write_sets(*s.current, camera);
     s.current->without_map = s.without_map;

@@ -94,7 +94,7 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
     std::memcpy(&word, words + light * sizeof word, sizeof word);
     if (word & shared::LightLacksCasters)
       degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::casters_missing,
-                          (counters.caster_pairs - counters.pair_limit) * (sizeof(shared::CasterPair) + 2 * sizeof(shared::DrawCommand))});
+                          (counters.caster_pairs - counters.pair_limit) * (sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand))});
   }
   statistics.overflows = uint64_t(counters.clusters_found > counters.clusters) + uint64_t(counters.all_lights_used != 0) +
                          uint64_t(counters.caster_pairs > counters.pair_limit);
@@ -122,11 +122,11 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   if (auto ok = frame->clusters.reserve(*device, *memory, camera.tiles, pair_capacity, light_slots, outgrown); !ok) return ok.error();
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
 
-  const uint64_t most_pairs = uint64_t(scene.lights().count()) * std::max(scene.casters(), 1u);
+  const uint64_t most_pairs = uint64_t(layout.views) * std::max(scene.casters(), 1u);
   const uint64_t needed = std::min<uint64_t>(most_pairs, std::max<uint64_t>(settings.max_caster_pairs, (most_pairs + kMaxRounds - 1) / kMaxRounds));
-  const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(needed, 1024, 1u << 22));
+  const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(needed, 1024, 1u << 20));
   const bool traditional = desc.settings.writer == Writer::traditional;
-  if (auto ok = frame->culling.reserve(*device, *memory, light_slots, std::max(capacity, frame->culling.pair_capacity()),
+  if (auto ok = frame->culling.reserve(*device, *memory, light_slots, std::max(capacity, frame->culling.capacity()),
                                        traditional ? raster::kViewsAtOnce : 0, scene.caster_slots(), outgrown); !ok)
     return ok.error();
 
@@ -151,8 +151,8 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
 }
 
 uint32_t ShadowSystem::State::plan_rounds() {
-  const uint64_t capacity = frame->culling.pair_capacity();
-  const uint64_t most = uint64_t(frame->scene.lights().count()) * frame->scene.casters();
+  const uint64_t capacity = frame->culling.capacity();
+  const uint64_t most = uint64_t(layout.views) * frame->scene.casters();
   // Half as many again as the last frame needed: movement adds pairs. Without a last frame, the most there can be.
   const uint64_t expected = caster_pairs_known ? std::min(most, caster_pairs_seen + caster_pairs_seen / 2 + capacity / 2) : most;
   return static_cast<uint32_t>(std::clamp<uint64_t>((expected + capacity - 1) / capacity, 1, kMaxRounds));

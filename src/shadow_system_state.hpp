@@ -24,7 +24,7 @@ struct FrameSlot {
 };
 
 struct ShadowSystem::State {
-  static constexpr uint32_t kMaxRounds = 64;
+  static constexpr uint32_t kMaxRounds = 128;
 
   ~State();
   Result<void> create_sets(uint32_t frames_in_flight);

@@ -25,8 +25,8 @@ struct Statistics {
   uint32_t shadow_views = 0;            ///< Their faces.
   uint32_t map_resolution = 0;          ///< Texels along a side, fixed-cubes.
   uint64_t texels_allocated = 0;
-  uint64_t caster_pairs = 0;            ///< (batch, light) pairs.
-  uint64_t batches_drawn = 0;           ///< (batch, view) pairs.
+  uint64_t caster_pairs = 0;            ///< (batch, view) pairs that were listed.
+  uint64_t batches_drawn = 0;           ///< (batch, view) pairs that were drawn.
   uint64_t triangles_drawn = 0;         ///< (triangle, view) pairs.
   uint64_t casters = 0;                 ///< Batches of all instances.
   uint64_t shadow_memory_bytes = 0;     ///< Depth texels.

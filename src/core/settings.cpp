@@ -50,8 +50,8 @@ const std::array<Field, 11> kFields{{
      UMB_FIELD(fixed.batch_triangles), {}, 32, 1024},
     {{"max_cluster_light_pairs", "1024..67108864", "first size of the cluster/light lists; they grow with the frames"},
      UMB_FIELD(fixed.max_cluster_light_pairs), {}, 1024, 1u << 26},
-    {{"max_caster_pairs", "1024..4194304", "(batch, light) pairs drawn per round; memory against rounds"},
-     UMB_FIELD(fixed.max_caster_pairs), {}, 1024, 1u << 22},
+    {{"max_caster_pairs", "1024..1048576", "(batch, view) pairs drawn per round, 152 bytes each; memory against rounds"},
+     UMB_FIELD(fixed.max_caster_pairs), {}, 1024, 1u << 20},
 }};
 #undef UMB_FIELD
 

@@ -37,13 +37,13 @@ Result<CasterCulling> CasterCulling::create(const gpu::PipelineFactory& factory)
   return out;
 }
 
-Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t light_slots, uint32_t pair_capacity,
+Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t light_slots, uint32_t capacity,
                                     uint32_t views_at_once, uint32_t caster_slots, std::vector<gpu::Buffer>& retired) {
   const uint32_t entries = std::max(light_slots, 1u) * shared::TraverseThreads;
-  const VkDeviceSize commands = std::max<VkDeviceSize>(2ull * pair_capacity, 2ull * views_at_once * caster_slots);
+  const VkDeviceSize commands = std::max<VkDeviceSize>(2ull * capacity, 2ull * views_at_once * caster_slots);
   struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
   Need needs[] = {{counts_, entries * sizeof(uint32_t), "caster counts", {}},
-                  {pairs_, pair_capacity * sizeof(shared::CasterPair), "caster pairs", {}},
+                  {instances_, std::max<VkDeviceSize>(capacity, 2ull * views_at_once * caster_slots) * sizeof(shared::CasterInstance), "caster instances", {}},
                   {commands_, commands * sizeof(shared::DrawCommand), "draw commands", {}},
                   {draw_counts_, std::max(views_at_once, 1u) * sizeof(shared::DrawCounts), "draw counts", {}}};
   for (Need& need : needs) {
@@ -58,7 +58,7 @@ Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memo
     std::swap(need.target, need.made);
     if (need.made) retired.push_back(std::move(need.made));
   }
-  pair_capacity_ = pair_capacity;
+  capacity_ = capacity;
   view_range_ = caster_slots;
   return {};
 }
@@ -93,11 +93,11 @@ void CasterCulling::record_round(gpu::Recorder& recorder, const Inputs& in, uint
   clear_draw_counts(recorder);
   gpu::Pass pass = recorder.pass("write casters");
   shared::TraversePush push = inputs(pass, in);
-  push.counts = pass.read(counts_), push.counters = pass.write(in.counters), push.pairs = pass.write(pairs_);
+  push.counts = pass.read(counts_), push.counters = pass.write(in.counters), push.drawn = pass.write(instances_);
   push.commands = pass.write(commands_), push.draw_counts = pass.write(draw_counts_);
   push.used = pass.write(in.used_lights);
-  push.window_first = round * pair_capacity_;
-  push.window_size = pair_capacity_;
+  push.window_first = round * capacity_;
+  push.window_size = capacity_;
   pass.dispatch(write_[in.mode == umbrage::CasterCulling::view_mask], push, in.scene.light_slots());
 }
 
@@ -105,7 +105,8 @@ void CasterCulling::record_views(gpu::Recorder& recorder, const Inputs& in, uint
   clear_draw_counts(recorder);
   gpu::Pass pass = recorder.pass("write view casters");
   shared::TraversePush push = inputs(pass, in);
-  push.counters = pass.write(in.counters), push.commands = pass.write(commands_), push.draw_counts = pass.write(draw_counts_);
+  push.counters = pass.write(in.counters), push.drawn = pass.write(instances_), push.commands = pass.write(commands_);
+  push.draw_counts = pass.write(draw_counts_);
   push.window_first = first;
   push.window_size = view_range_;
   pass.dispatch(write_views_[in.mode == umbrage::CasterCulling::view_mask], push, count);

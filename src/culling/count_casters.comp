@@ -1,5 +1,5 @@
 #version 460
-// How many batches each thread of each light's traversal finds.
+// How many instances (a batch in one view each) each thread of each light's traversal finds.
 #extension GL_GOOGLE_include_directive : require
 #include "culling/traverse.glsl"
 layout(local_size_x = TraverseThreads) in;
@@ -8,7 +8,8 @@ LightRecord light;
 uint found = 0u;
 
 void visit(uint caster, Box box) {
-  if (view_mask(light, box) != 0u && caster_is_lit_by(caster, light.light_mask)) ++found;
+  uint mask = view_mask(light, box);
+  if (mask != 0u && caster_is_lit_by(caster, light.light_mask)) found += bitCount(mask);
 }
 
 void main() {

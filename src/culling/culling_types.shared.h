@@ -8,12 +8,21 @@ UMB_NAMESPACE_BEGIN
 /// Threads that share a light's traversal; each owns the lowest nodes whose number has its remainder.
 UMB_CONST uint TraverseThreads = 64u;
 
-/// A batch to be drawn into views of a light.
-struct CasterPair {
+/// A batch drawn into one view: everything that is the same for its vertices, as instance attributes of cast.vert. (Loads by
+/// address would be repeated for every vertex.)
+struct CasterInstance {
+  vec4 row_x, row_y, row_z, row_w;   // the view's clip position of mesh space
+  float tile_texels;                 // the view's side; where it begins in what the viewport covers
+  float tile_x, tile_y;
+  uint view;
+  uint64_t positions;                // address
+  uint position_stride;              // in floats
+  uint batch;
+  uint64_t uvs;
+  uint uv_stride;
   uint caster;
-  uint light_and_mask;       // light slot in the low 20 bits; bit 20 + i: view i of the light
 };
-UMB_ASSERT_SIZE(CasterPair, 8);
+UMB_ASSERT_SIZE(CasterInstance, 112);
 
 /// VkDrawIndexedIndirectCommand.
 struct DrawCommand {
@@ -42,24 +51,42 @@ struct TraversePush {        // count_casters, write_casters, write_view_casters
   uint64_t leaves;
   uint64_t nodes;
   uint64_t shape;
-  uint64_t counts;           // per light and thread: counts, then first pairs
+  uint64_t counts;           // per light and thread: instances, then the first one
   uint64_t counters;
-  uint64_t pairs;            // write_casters
+  uint64_t drawn;            // CasterInstance
   uint64_t commands;         // opaque ones, then masked ones
   uint64_t draw_counts;
-  uint64_t used;             // write_casters marks lights whose pairs are beyond the last round
-  uint window_first;         // write_casters: first pair of the round; write_view_casters: first view
-  uint window_size;          // write_casters: pairs a round; write_view_casters: room for commands a list
+  uint64_t used;             // write_casters marks lights that are beyond the last round
+  uint window_first;         // write_casters: first instance of the round; write_view_casters: first view
+  uint window_size;          // write_casters: instances a round; write_view_casters: room for commands a list
 };
 UMB_ASSERT_SIZE(TraversePush, 128);
-
-UMB_FN uint pair_light(CasterPair pair) { return pair.light_and_mask & 0xfffffu; }
-UMB_FN uint pair_mask(CasterPair pair) { return pair.light_and_mask >> 20u; }
 
 /// Number of the n-th set bit (O12: the layer from instance index and face mask).
 UMB_FN uint nth_set_bit(uint mask, uint n) {
   for (uint i = 0u; i < n; ++i) mask &= mask - 1u;
   return uint(findLSB(mask));
+}
+
+/// view_clip_position as a row over mesh space.
+UMB_FN vec4 clip_row(InstanceRecord instance, vec3 row, vec3 origin, float offset) {
+  vec3 translation = vec3(instance.row0.w, instance.row1.w, instance.row2.w) - origin;
+  return vec4(row.x * instance.row0.x + row.y * instance.row1.x + row.z * instance.row2.x,
+              row.x * instance.row0.y + row.y * instance.row1.y + row.z * instance.row2.y,
+              row.x * instance.row0.z + row.y * instance.row1.z + row.z * instance.row2.z, dot(row, translation) + offset);
+}
+
+UMB_FN CasterInstance caster_instance(InstanceRecord instance, ShadowView view) {
+  CasterInstance drawn;
+  drawn.row_x = clip_row(instance, view.x_row, view.origin, 0.0f);
+  drawn.row_y = clip_row(instance, view.y_row, view.origin, 0.0f);
+  drawn.row_z = clip_row(instance, view.z_row, view.origin, view.z_offset);
+  drawn.row_w = clip_row(instance, view.w_row, view.origin, view.w_offset);
+  drawn.positions = instance.positions;
+  drawn.position_stride = instance.position_stride;
+  drawn.uvs = instance.uvs;
+  drawn.uv_stride = instance.uv_stride;
+  return drawn;
 }
 
 UMB_NAMESPACE_END

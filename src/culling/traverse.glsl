@@ -7,7 +7,7 @@
 #include "views/cube_projection.shared.h"
 
 UMB_ARRAY(Views, ShadowView, 4);
-UMB_ARRAY(Pairs, CasterPair, 4);
+UMB_ARRAY(Drawn, CasterInstance, 8);
 UMB_ARRAY(Commands, DrawCommand, 4);
 UMB_ARRAY(DrawCountList, DrawCounts, 4);
 layout(push_constant, scalar) uniform PushBlock { TraversePush push; };

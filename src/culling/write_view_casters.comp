@@ -9,15 +9,26 @@ uint view_bit;
 uint batches_drawn = 0u;
 uint triangles_drawn = 0u;
 
-void visit(uint caster, Box box) {
-  if ((view_mask(light, box) & view_bit) == 0u || !caster_is_lit_by(caster, light.light_mask)) return;
-  BatchRecord batch = Batches(push.batches).v[Casters(push.casters).v[caster].batch];
+void visit(uint caster_index, Box box) {
+  if ((view_mask(light, box) & view_bit) == 0u || !caster_is_lit_by(caster_index, light.light_mask)) return;
+  CasterRecord caster = Casters(push.casters).v[caster_index];
+  BatchRecord batch = Batches(push.batches).v[caster.batch];
   uint local_view = gl_WorkGroupID.x;
   bool masked = batch.mask != NoIndex;
   uint at = masked ? atomicAdd(DrawCountList(push.draw_counts).v[local_view].masked, 1u)
                    : atomicAdd(DrawCountList(push.draw_counts).v[local_view].opaque, 1u);
-  uint range = local_view * 2u + uint(masked);
-  Commands(push.commands).v[range * push.window_size + at] = DrawCommand(batch.index_count, 1u, batch.first_index, 0, caster);
+  at += (local_view * 2u + uint(masked)) * push.window_size;
+  uint view_index = push.window_first + local_view;
+  ShadowView view = Views(push.views).v[view_index];
+  CasterInstance drawn = caster_instance(Instances(push.instances).v[caster.instance], view);
+  drawn.tile_texels = float(view.resolution);
+  drawn.tile_x = 0.0;
+  drawn.tile_y = 0.0;
+  drawn.view = view_index;
+  drawn.batch = caster.batch;
+  drawn.caster = caster_index;
+  Drawn(push.drawn).v[at] = drawn;
+  Commands(push.commands).v[at] = DrawCommand(batch.index_count, 1u, batch.first_index, 0, at);
   ++batches_drawn;
   triangles_drawn += batch.triangle_count;
 }

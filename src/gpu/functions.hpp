@@ -22,7 +22,7 @@ namespace umbrage::gpu {
   X(vkCmdWriteTimestamp2) X(vkCmdPipelineBarrier2) X(vkCmdBindPipeline) X(vkCmdBindDescriptorSets)                 \
   X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdCopyBuffer) X(vkCmdFillBuffer)            \
   X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) X(vkCmdBindIndexBuffer)       \
-  X(vkCmdDrawIndexedIndirectCount)
+  X(vkCmdBindVertexBuffers) X(vkCmdDrawIndexedIndirectCount)
 
 /// Loaded only where VK_EXT_debug_utils is enabled.
 #define UMB_DEBUG_FUNCTIONS(X)                                                                                      \

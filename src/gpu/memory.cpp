@@ -130,7 +130,7 @@ Result<Buffer> Buffer::create(const Device& device, Memory& memory, VkDeviceSize
   info.size = align_up(std::max<VkDeviceSize>(size, 16), 16);
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-               VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+               VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
   Buffer buffer;
   VkResult result = device.vk().vkCreateBuffer(device.handle(), &info, device.callbacks(), &buffer.handle_);
   if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateBuffer", name);

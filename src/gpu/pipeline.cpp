@@ -128,7 +128,14 @@ Result<Pipeline> PipelineFactory::depth(const DepthShaders& shaders, const char*
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   stages[0] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_VERTEX_BIT, *vertex, "main", &specialization.info};
   stages[1] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_FRAGMENT_BIT, fragment, "main", &specialization.info};
-  const VkPipelineVertexInputStateCreateInfo no_vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  const VkVertexInputBindingDescription binding{0, shaders.instance_stride_bytes, VK_VERTEX_INPUT_RATE_INSTANCE};
+  std::array<VkVertexInputAttributeDescription, 8> attributes{};
+  for (uint32_t i = 0; i < shaders.instance_attributes.size(); ++i) attributes[i] = {i, 0, shaders.instance_attributes[i], 16 * i};
+  VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  vertices.vertexBindingDescriptionCount = shaders.instance_attributes.empty() ? 0 : 1;
+  vertices.pVertexBindingDescriptions = &binding;
+  vertices.vertexAttributeDescriptionCount = static_cast<uint32_t>(shaders.instance_attributes.size());
+  vertices.pVertexAttributeDescriptions = attributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
   assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
@@ -150,7 +157,7 @@ Result<Pipeline> PipelineFactory::depth(const DepthShaders& shaders, const char*
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
   info.stageCount = fragment ? 2 : 1;
   info.pStages = stages.data();
-  info.pVertexInputState = &no_vertices;
+  info.pVertexInputState = &vertices;
   info.pInputAssemblyState = &assembly;
   info.pViewportState = &viewport;
   info.pRasterizationState = &raster;

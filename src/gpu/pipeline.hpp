@@ -35,6 +35,9 @@ class Pipeline {
 struct DepthShaders {
   std::span<const uint32_t> vertex;
   std::span<const uint32_t> fragment;  ///< Empty: depth only.
+  /// Instance attributes of binding 0, at locations 0, 1, …, 16 bytes each.
+  std::span<const VkFormat> instance_attributes;
+  uint32_t instance_stride_bytes = 0;
 };
 
 /// Owns descriptor set layouts and the pipeline layout. Set 0: per-frame images; set 1: masks.

@@ -2,6 +2,7 @@
 #include "raster/writers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace umbrage::raster {
@@ -33,35 +34,36 @@ void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::Depth
 }
 
 /// Declares what drawing reads, besides positions, which have been visible since they were uploaded.
-shared::CastPush declare(gpu::Pass& pass, const Writers::Inputs& in) {
+shared::CastPush declare(gpu::Pass& pass, const Writers::Inputs& in, glm::vec2 area) {
   using enum gpu::Access;
-  shared::CastPush push{};
-  push.pairs = pass.read(in.culling.pairs(), vertex_read);
-  push.casters = pass.read(in.scene.caster_buffer(), vertex_read);
-  push.instances = pass.read(in.scene.instance_buffer(), vertex_read);
-  push.batches = pass.read(in.scene.batch_buffer(), fragment_read);
-  push.lights = pass.read(in.scene.light_buffer(), vertex_read);
-  push.views = pass.read(in.store.views(), vertex_read);
-  push.tile_resolution = in.store.layout().resolution;
-  push.atlas_size = {in.store.atlas().width(), in.store.atlas().height()};
   pass.read(in.scene.index_buffer(), index_read);
+  pass.read(in.culling.instances(), vertex_attribute_read);
   pass.read(in.culling.commands(), indirect_read);
   pass.read(in.culling.draw_counts(), indirect_read);
   pass.image(in.store.atlas(), depth_attachment);
-  return push;
+  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read), .area = area};
+}
+
+void bind_geometry(const gpu::Functions& vk, VkCommandBuffer commands, const Writers::Inputs& in) {
+  vk.vkCmdBindIndexBuffer(commands, in.scene.index_buffer().handle(), 0, VK_INDEX_TYPE_UINT32);
+  const VkBuffer instances = in.culling.instances().handle();
+  const VkDeviceSize offset = 0;
+  vk.vkCmdBindVertexBuffers(commands, 0, 1, &instances, &offset);
 }
 }  // namespace
 
 Result<Writers> Writers::create(const gpu::PipelineFactory& factory) {
   Writers out;
+  constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT, kWords = VK_FORMAT_R32G32B32A32_UINT;
+  constexpr std::array<VkFormat, 7> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats, kWords, kWords};
   for (uint32_t masked = 0; masked < 2; ++masked) {
-    const gpu::DepthShaders shaders{.vertex = kCastVertex, .fragment = masked ? std::span<const uint32_t>(kMaskFragment) : std::span<const uint32_t>{}};
-    auto multi = factory.depth(shaders, masked ? "multi-draw, masked" : "multi-draw", {{0, 0}, {1, masked}});
-    if (!multi) return multi.error();
-    out.multi_draw_[masked] = std::move(*multi);
-    auto traditional = factory.depth(shaders, masked ? "traditional, masked" : "traditional", {{0, 1}, {1, masked}});
-    if (!traditional) return traditional.error();
-    out.traditional_[masked] = std::move(*traditional);
+    const gpu::DepthShaders shaders{.vertex = kCastVertex,
+                                    .fragment = masked ? std::span<const uint32_t>(kMaskFragment) : std::span<const uint32_t>{},
+                                    .instance_attributes = kAttributes,
+                                    .instance_stride_bytes = sizeof(shared::CasterInstance)};
+    auto made = factory.depth(shaders, masked ? "cast, masked" : "cast", {{0, masked}});
+    if (!made) return made.error();
+    out.cast_[masked] = std::move(*made);
   }
   return out;
 }
@@ -70,17 +72,17 @@ void Writers::record_multi_draw(gpu::Recorder& recorder, const Inputs& in, uint3
   const gpu::DepthImage& atlas = in.store.atlas();
   const VkRect2D whole{{0, 0}, {atlas.width(), atlas.height()}};
   const gpu::Functions& vk = recorder.device().vk();
-  const uint32_t capacity = in.culling.pair_capacity();
+  const uint32_t capacity = in.culling.capacity();
   for (uint32_t round = 0; round < rounds; ++round) {
     in.culling.record_round(recorder, in.cull, round);
     gpu::Scope scope(recorder, "raster");
     gpu::Pass pass = recorder.pass("multi-draw");
-    const shared::CastPush push = declare(pass, in);
+    const shared::CastPush push = declare(pass, in, glm::vec2(atlas.width(), atlas.height()));
     const VkCommandBuffer commands = pass.commands();
     begin(recorder.device(), commands, atlas, whole, round == 0);
-    vk.vkCmdBindIndexBuffer(commands, in.scene.index_buffer().handle(), 0, VK_INDEX_TYPE_UINT32);
+    bind_geometry(vk, commands, in);
     for (uint32_t masked = 0; masked < (in.scene.has_masked() ? 2u : 1u); ++masked) {
-      pass.bind_graphics(multi_draw_[masked], push);
+      pass.bind_graphics(cast_[masked], push);
       const VkDeviceSize count_at = masked ? offsetof(shared::DrawCounts, masked) : offsetof(shared::DrawCounts, opaque);
       vk.vkCmdDrawIndexedIndirectCount(commands, in.culling.commands().handle(), VkDeviceSize(masked) * capacity * sizeof(shared::DrawCommand),
                                        in.culling.draw_counts().handle(), count_at, std::min(capacity, in.max_draws), sizeof(shared::DrawCommand));
@@ -98,15 +100,14 @@ void Writers::record_traditional(gpu::Recorder& recorder, const Inputs& in) cons
     const uint32_t count = std::min(kViewsAtOnce, layout.views - first);
     in.culling.record_views(recorder, in.cull, first, count);
     gpu::Pass pass = recorder.pass("pass per view");
-    shared::CastPush push = declare(pass, in);
+    const shared::CastPush push = declare(pass, in, glm::vec2(float(layout.resolution)));
     const VkCommandBuffer commands = pass.commands();
-    vk.vkCmdBindIndexBuffer(commands, in.scene.index_buffer().handle(), 0, VK_INDEX_TYPE_UINT32);
+    bind_geometry(vk, commands, in);
     for (uint32_t i = 0; i < count; ++i) {
-      push.view = first + i;
-      const glm::uvec2 tile = shared::atlas_tile(push.view, layout.columns, layout.resolution);
+      const glm::uvec2 tile = shared::atlas_tile(first + i, layout.columns, layout.resolution);
       begin(recorder.device(), commands, in.store.atlas(), {{int32_t(tile.x), int32_t(tile.y)}, {layout.resolution, layout.resolution}}, true);
       for (uint32_t masked = 0; masked < (in.scene.has_masked() ? 2u : 1u); ++masked) {
-        pass.bind_graphics(traditional_[masked], push);
+        pass.bind_graphics(cast_[masked], push);
         const VkDeviceSize count_at = i * sizeof(shared::DrawCounts) + (masked ? offsetof(shared::DrawCounts, masked) : offsetof(shared::DrawCounts, opaque));
         vk.vkCmdDrawIndexedIndirectCount(commands, in.culling.commands().handle(), VkDeviceSize(2 * i + masked) * range * sizeof(shared::DrawCommand),
                                          in.culling.draw_counts().handle(), count_at, std::min(range, in.max_draws), sizeof(shared::DrawCommand));

@@ -6,7 +6,7 @@
 namespace umbrage::raster {
 
 /// Views whose draws the traditional writer has the device list at once.
-constexpr uint32_t kViewsAtOnce = 16;
+constexpr uint32_t kViewsAtOnce = 8;
 
 class Writers {
  public:
@@ -25,7 +25,7 @@ class Writers {
   void record_traditional(gpu::Recorder&, const Inputs&) const;
 
  private:
-  gpu::Pipeline multi_draw_[2], traditional_[2];   // opaque, masked
+  gpu::Pipeline cast_[2];   // opaque, masked
 };
 
 }  // namespace umbrage::raster
