@@ -30,7 +30,7 @@ class Instance {
     const VkApplicationInfo application{
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "umbrage", .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
-    const auto create = made.function<PFN_vkCreateInstance>("vkCreateInstance");
+    const auto create = made.global_function<PFN_vkCreateInstance>("vkCreateInstance");
     if (!create || create(&info, nullptr, &made.instance_) != VK_SUCCESS)
       return unsupported("no Vulkan driver is usable: install one (mesa-vulkan-drivers has one in software)");
     return made;
@@ -45,6 +45,11 @@ class Instance {
   template <class T>
   T function(const char* name) const {
     return reinterpret_cast<T>(get_(instance_, name));
+  }
+  /// Of those that Vulkan offers without an instance.
+  template <class T>
+  T global_function(const char* name) const {
+    return reinterpret_cast<T>(get_(nullptr, name));
   }
   VkInstance get() const { return instance_; }
   PFN_vkGetInstanceProcAddr loader_function() const { return get_; }
@@ -103,7 +108,7 @@ DeviceEntry describe(const Instance& instance, VkPhysicalDevice device) {
 
 bool find_validation_layer(const Instance& instance) {
   const auto enumerate =
-      instance.function<PFN_vkEnumerateInstanceLayerProperties>("vkEnumerateInstanceLayerProperties");
+      instance.global_function<PFN_vkEnumerateInstanceLayerProperties>("vkEnumerateInstanceLayerProperties");
   uint32_t count = 0;
   if (!enumerate || enumerate(&count, nullptr) != VK_SUCCESS) return false;
   std::vector<VkLayerProperties> layers(count);

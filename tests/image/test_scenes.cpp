@@ -11,7 +11,7 @@ namespace {
 
 struct Case {
   const char* name;
-  const char* scene;  ///< Under the shared scenes, or builtin:…
+  const char* scene;  ///< As for find_scene.
   std::vector<std::string> options;
   const char* lights = nullptr;  ///< A lights file beside the shared scenes.
   uint32_t least_lights = 1;     ///< Visible ones.
@@ -19,9 +19,14 @@ struct Case {
 
 std::ostream& operator<<(std::ostream& stream, const Case& test) { return stream << test.name; }
 
+/// A built-in scene, a shared one (in a folder), or one of the tests' own; "" when it is not there.
+std::string find_scene(const std::string& name) {
+  if (name.starts_with("builtin:")) return name;
+  return name.find('/') == std::string::npos ? data_file(name) : shared_scene(name);
+}
+
 void expect_right_shadows(const Case& test) {
-  const bool is_builtin = std::string(test.scene).starts_with("builtin:");
-  const std::string scene = is_builtin ? test.scene : shared_scene(test.scene);
+  const std::string scene = find_scene(test.scene);
   if (scene.empty()) GTEST_SKIP() << test.scene << " is not in " << UMBRAGE_SCENES_DIR;
   std::vector<std::string> arguments = {"compare", scene};
   arguments.insert(arguments.end(), test.options.begin(), test.options.end());
@@ -50,19 +55,31 @@ const std::string kSmall = "320x180", kMiddle = "640x360";
 INSTANTIATE_TEST_SUITE_P(
     Scenes, FastScene,
     testing::Values(
+        Case{"room", "room.gltf", {"--size", kMiddle, "--time", "0.7"}, nullptr, 4},
         Case{"lights", "lights_and_masks/test_lights.gltf", {"--size", kSmall}, nullptr, 2},
-        Case{"house_random", "lights_and_masks/house.glb", {"--size", kSmall, "--random-lights", "24"}, nullptr, 12},
         Case{"moving_lights", "lights_and_masks/multiple_animated_lights.gltf", {"--size", kSmall, "--time", "1.3"}},
-        Case{"fox", "animated/Fox.glb", {"--size", kSmall, "--time", "0.4", "--random-lights", "8"}, nullptr, 2},
-        Case{"man", "animated/CesiumMan.glb", {"--size", kSmall, "--time", "0.7", "--random-lights", "8"}, nullptr, 2},
-        Case{"man_validated",
-             "animated/CesiumMan.glb",
-             {"--size", kSmall, "--time", "0.2", "--frames", "3", "--random-lights", "4", "--validate"}},
+        Case{"masked_house", "lights_and_masks/house.glb", {"--size", kMiddle, "--random-lights", "24"}, nullptr, 12},
         Case{"traditional",
              "lights_and_masks/house.glb",
-             {"--size", kSmall, "--random-lights", "6", "--set", "writer=traditional"},
+             {"--size", kMiddle, "--random-lights", "6", "--set", "writer=traditional"},
              nullptr,
-             3}),
+             3},
+        Case{"fox",
+             "animated/Fox.glb",
+             {"--size", kMiddle, "--time", "0.4", "--random-lights", "8", "--eye", "-70,60,90", "--target", "0,35,0"},
+             nullptr,
+             4},
+        Case{"man",
+             "animated/CesiumMan.glb",
+             {"--size", kMiddle, "--time", "0.7", "--random-lights", "8", "--eye", "1,1,1.2", "--target", "0,0.7,0"},
+             nullptr,
+             4},
+        Case{"man_validated",
+             "animated/CesiumMan.glb",
+             {"--size", kMiddle, "--time", "0.633", "--frames", "3", "--random-lights", "8", "--eye", "1,1,1.2",
+              "--target", "0,0.7,0", "--validate"},
+             nullptr,
+             4}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
