@@ -43,6 +43,7 @@ umbrage::HeadlessDesc headless_desc(const std::string& device, bool validate) {
   desc.features.multiDrawIndirect = VK_TRUE;
   desc.features.drawIndirectFirstInstance = VK_TRUE;
   desc.features.shaderInt64 = VK_TRUE;
+  desc.features_12.drawIndirectCount = VK_TRUE;
   desc.features_12.bufferDeviceAddress = VK_TRUE;
   desc.features_12.scalarBlockLayout = VK_TRUE;
   desc.features_12.descriptorIndexing = VK_TRUE;

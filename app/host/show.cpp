@@ -94,8 +94,9 @@ void ShowPass::record_boxes(PassContext& pass, VkBuffer counters) const {
   set_whole_viewport(pass.gpu, pass.commands, targets);
   push_constants(pass.gpu, pass.commands, pass.layout, pass.push);
   vk.vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, boxes_.get());
-  vk.vkCmdDrawIndirect(pass.commands, counters, offsetof(gpu::GpuCounters, box_vertices), 1,
-                       sizeof(VkDrawIndirectCommand));
+  // With a count, though it is always 1: Mesa 25.0's software driver takes the count of an earlier draw where there is none.
+  vk.vkCmdDrawIndirectCount(pass.commands, counters, offsetof(gpu::GpuCounters, box_vertices), counters,
+                            offsetof(gpu::GpuCounters, box_draws), 1, sizeof(VkDrawIndirectCommand));
   vk.vkCmdEndRendering(pass.commands);
   targets[Target::picture].use(pass.gpu, pass.commands, ImageUse::storage);
 }

@@ -75,6 +75,7 @@ struct GpuCounters {
   uint most_lights_of_a_pixel;
   float exposure;
   uint box_vertices, box_instances, box_first_vertex, box_first_instance;  // VkDrawIndirectCommand
+  uint box_draws;
   uint luminance_histogram[256];
 };
 
@@ -123,7 +124,7 @@ struct DeformPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GpuTexture) == 32 && sizeof(GpuMaterial) == 176 && sizeof(GpuPrimitive) == 40);
-static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 52 && sizeof(GpuCounters) == 32 + 4 * 256);
+static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 52 && sizeof(GpuCounters) == 36 + 4 * 256);
 static_assert(offsetof(GpuFrame, instances) == 176 && sizeof(GpuFrame) == 224);
 static_assert(sizeof(FramePush) == 40 && sizeof(DeformPush) == 88);
 }  // namespace app::gpu

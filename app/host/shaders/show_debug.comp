@@ -76,6 +76,7 @@ void main() {
   Frame frame = Frame(push.frame);
   if (push.show == ShowExplicitBounds && gl_GlobalInvocationID.xy == uvec2(0u)) {
     Counters counters = Counters(frame.data.counters);
+    counters.data.box_draws = 1u;
     counters.data.box_vertices = 24u;
     counters.data.box_instances = umbrage_cluster_count(umbrage_frame(frame.data.umbrage));
   }
