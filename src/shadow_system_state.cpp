@@ -124,7 +124,8 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
 
   const uint64_t most_pairs = uint64_t(layout.views) * std::max(scene.casters(), 1u);
   const uint64_t needed = std::min<uint64_t>(most_pairs, std::max<uint64_t>(settings.max_caster_pairs, (most_pairs + kMaxRounds - 1) / kMaxRounds));
-  const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(needed, 1024, 1u << 20));
+  const uint32_t most_at_once = std::min(1u << 20, device->limits().max_draw_indirect_count);
+  const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(needed, 1024, most_at_once));
   const bool traditional = desc.settings.writer == Writer::traditional;
   if (auto ok = frame->culling.reserve(*device, *memory, light_slots, std::max(capacity, frame->culling.capacity()),
                                        traditional ? raster::kViewsAtOnce : 0, scene.caster_slots(), outgrown); !ok)

@@ -1,4 +1,4 @@
-// (batch, light) pairs and what draws are made of them.
+// (batch, view) pairs and what draws are made of them.
 #ifndef UMBRAGE_CULLING_TYPES_SHARED_H
 #define UMBRAGE_CULLING_TYPES_SHARED_H
 #include "store/store_types.shared.h"
@@ -12,7 +12,7 @@ UMB_CONST uint TraverseThreads = 64u;
 /// address would be repeated for every vertex.)
 struct CasterInstance {
   vec4 row_x, row_y, row_z, row_w;   // the view's clip position of mesh space
-  float tile_texels;                 // the view's side; where it begins in what the viewport covers
+  float tile_texels;                 // the view's side; where it begins in the atlas
   float tile_x, tile_y;
   uint view;
   uint64_t positions;                // address
@@ -76,16 +76,22 @@ UMB_FN vec4 clip_row(InstanceRecord instance, vec3 row, vec3 origin, float offse
               row.x * instance.row0.z + row.y * instance.row1.z + row.z * instance.row2.z, dot(row, translation) + offset);
 }
 
-UMB_FN CasterInstance caster_instance(InstanceRecord instance, ShadowView view) {
+UMB_FN CasterInstance caster_instance(InstanceRecord instance, ShadowView view, uint view_index, uint caster, uint batch) {
   CasterInstance drawn;
   drawn.row_x = clip_row(instance, view.x_row, view.origin, 0.0f);
   drawn.row_y = clip_row(instance, view.y_row, view.origin, 0.0f);
   drawn.row_z = clip_row(instance, view.z_row, view.origin, view.z_offset);
   drawn.row_w = clip_row(instance, view.w_row, view.origin, view.w_offset);
+  drawn.tile_texels = float(view.resolution);
+  drawn.tile_x = float(view.atlas_x);
+  drawn.tile_y = float(view.atlas_y);
+  drawn.view = view_index;
   drawn.positions = instance.positions;
   drawn.position_stride = instance.position_stride;
   drawn.uvs = instance.uvs;
   drawn.uv_stride = instance.uv_stride;
+  drawn.batch = batch;
+  drawn.caster = caster;
   return drawn;
 }
 

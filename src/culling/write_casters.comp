@@ -23,14 +23,7 @@ void visit(uint caster_index, Box box) {
   for (uint i = begin; i < end; ++i) {
     uint view_index = light.first_view + nth_set_bit(mask, i - first);
     ShadowView view = Views(push.views).v[view_index];
-    CasterInstance drawn = caster_instance(instance, view);
-    drawn.tile_texels = float(view.resolution);
-    drawn.tile_x = float(view.atlas_x);
-    drawn.tile_y = float(view.atlas_y);
-    drawn.view = view_index;
-    drawn.batch = caster.batch;
-    drawn.caster = caster_index;
-    Drawn(push.drawn).v[i - push.window_first] = drawn;
+    Drawn(push.drawn).v[i - push.window_first] = caster_instance(instance, view, view_index, caster_index, caster.batch);
   }
   BatchRecord batch = Batches(push.batches).v[caster.batch];
   uint command = batch.mask != NoIndex ? push.window_size + atomicAdd(DrawCountList(push.draw_counts).v[0].masked, 1u)

@@ -20,14 +20,8 @@ void visit(uint caster_index, Box box) {
   at += (local_view * 2u + uint(masked)) * push.window_size;
   uint view_index = push.window_first + local_view;
   ShadowView view = Views(push.views).v[view_index];
-  CasterInstance drawn = caster_instance(Instances(push.instances).v[caster.instance], view);
-  drawn.tile_texels = float(view.resolution);
-  drawn.tile_x = 0.0;
-  drawn.tile_y = 0.0;
-  drawn.view = view_index;
-  drawn.batch = caster.batch;
-  drawn.caster = caster_index;
-  Drawn(push.drawn).v[at] = drawn;
+  InstanceRecord instance = Instances(push.instances).v[caster.instance];
+  Drawn(push.drawn).v[at] = caster_instance(instance, view, view_index, caster_index, caster.batch);
   Commands(push.commands).v[at] = DrawCommand(batch.index_count, 1u, batch.first_index, 0, at);
   ++batches_drawn;
   triangles_drawn += batch.triangle_count;

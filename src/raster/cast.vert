@@ -1,6 +1,6 @@
 #version 460
 // A caster's vertex into a shadow view. What is the same for all vertices of the batch comes as instance attributes
-// (CasterInstance); the view's tile is cut out of what the viewport covers by clip distances.
+// (CasterInstance); the view's tile is cut out of the atlas by clip distances.
 #extension GL_GOOGLE_include_directive : require
 #include "scene/scene_buffers.glsl"
 #include "raster/raster_types.shared.h"
@@ -28,7 +28,7 @@ void main() {
   gl_ClipDistance[1] = clip.w + clip.x;
   gl_ClipDistance[2] = clip.w - clip.y;
   gl_ClipDistance[3] = clip.w + clip.y;
-  clip.xy = (clip.xy * tile.x + clip.w * (2.0 * tile.yz + tile.x)) / push.area - clip.w;
+  clip.xy = (clip.xy * tile.x + clip.w * (2.0 * tile.yz + tile.x)) / push.atlas_size - clip.w;
   gl_Position = clip;
 
   uv = vec2(0.0);

@@ -7,7 +7,7 @@ UMB_NAMESPACE_BEGIN
 
 struct CastPush {            // cast.vert, mask.frag
   uint64_t batches;
-  vec2 area;                 // texels that the viewport covers: the atlas, or one tile
+  vec2 atlas_size;           // texels; what the viewport covers
 };
 UMB_ASSERT_SIZE(CastPush, 16);
 

@@ -15,7 +15,8 @@ constexpr uint32_t kMaskFragment[] =
 #include "shaders/mask.frag.inc"
     ;
 
-/// Begins rendering into a rectangle of the atlas with a viewport of the same size.
+/// Begins rendering into a rectangle of the atlas. The viewport is always the whole: coordinates round alike, so that both
+/// writers make the same bits.
 void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::DepthImage& atlas, const VkRect2D& area, bool clear) {
   VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   depth.imageView = atlas.view();
@@ -28,20 +29,21 @@ void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::Depth
   info.layerCount = 1;
   info.pDepthAttachment = &depth;
   device.vk().vkCmdBeginRendering(commands, &info);
-  const VkViewport viewport{float(area.offset.x), float(area.offset.y), float(area.extent.width), float(area.extent.height), 0, 1};
+  const VkViewport viewport{0, 0, float(atlas.width()), float(atlas.height()), 0, 1};
   device.vk().vkCmdSetViewport(commands, 0, 1, &viewport);
   device.vk().vkCmdSetScissor(commands, 0, 1, &area);
 }
 
 /// Declares what drawing reads, besides positions, which have been visible since they were uploaded.
-shared::CastPush declare(gpu::Pass& pass, const Writers::Inputs& in, glm::vec2 area) {
+shared::CastPush declare(gpu::Pass& pass, const Writers::Inputs& in) {
   using enum gpu::Access;
   pass.read(in.scene.index_buffer(), index_read);
   pass.read(in.culling.instances(), vertex_attribute_read);
   pass.read(in.culling.commands(), indirect_read);
   pass.read(in.culling.draw_counts(), indirect_read);
-  pass.image(in.store.atlas(), depth_attachment);
-  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read), .area = area};
+  const gpu::DepthImage& atlas = in.store.atlas();
+  pass.image(atlas, depth_attachment);
+  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read), .atlas_size = {atlas.width(), atlas.height()}};
 }
 
 void bind_geometry(const gpu::Functions& vk, VkCommandBuffer commands, const Writers::Inputs& in) {
@@ -77,7 +79,7 @@ void Writers::record_multi_draw(gpu::Recorder& recorder, const Inputs& in, uint3
     in.culling.record_round(recorder, in.cull, round);
     gpu::Scope scope(recorder, "raster");
     gpu::Pass pass = recorder.pass("multi-draw");
-    const shared::CastPush push = declare(pass, in, glm::vec2(atlas.width(), atlas.height()));
+    const shared::CastPush push = declare(pass, in);
     const VkCommandBuffer commands = pass.commands();
     begin(recorder.device(), commands, atlas, whole, round == 0);
     bind_geometry(vk, commands, in);
@@ -100,7 +102,7 @@ void Writers::record_traditional(gpu::Recorder& recorder, const Inputs& in) cons
     const uint32_t count = std::min(kViewsAtOnce, layout.views - first);
     in.culling.record_views(recorder, in.cull, first, count);
     gpu::Pass pass = recorder.pass("pass per view");
-    const shared::CastPush push = declare(pass, in, glm::vec2(float(layout.resolution)));
+    const shared::CastPush push = declare(pass, in);
     const VkCommandBuffer commands = pass.commands();
     bind_geometry(vk, commands, in);
     for (uint32_t i = 0; i < count; ++i) {
