@@ -178,6 +178,24 @@ TEST(Render, StatisticsHoldEveryKey) {
   EXPECT_GT(stats["passes"].size(), 4u);
 }
 
+TEST(Render, ListsThatStartTooShortChangeNothing) {
+  const TemporaryFolder folder;
+  const Arguments many = {"--random-lights", "400", "--stats", folder.file("s.json")};
+  const auto render = [&](const std::string& name, const Arguments& more) {
+    Arguments arguments = room("render", many);
+    arguments.insert(arguments.end(), {"-o", folder.file(name)});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run_well(arguments);
+  };
+  render("long.png", {});
+  const nlohmann::json needed = parse_json(read_all(folder.file("s.json")));
+  ASSERT_GT(needed["cluster_light_pairs"], 1024);
+  ASSERT_GT(needed["caster_pairs"], 1024);
+  render("short.png", {"--set", "max_cluster_light_pairs=1024", "--set", "max_caster_pairs=1024"});
+  EXPECT_EQ(parse_json(read_all(folder.file("s.json")))["overflows"], 0);
+  EXPECT_EQ(read_all(folder.file("short.png")), read_all(folder.file("long.png")));
+}
+
 TEST(Render, SettingsComeFromPresetFileAssignmentAndBudgetInThisOrder) {
   const TemporaryFolder folder;
   const auto settings_of = [&](const Arguments& more) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
@@ -74,6 +75,15 @@ INSTANTIATE_TEST_SUITE_P(
              {"--size", kMiddle, "--time", "0.7", "--random-lights", "8", "--eye", "1,1,1.2", "--target", "0,0.7,0"},
              nullptr,
              4},
+        Case{"stag", "animated/Stag.gltf", {"--size", kMiddle, "--time", "0.5", "--random-lights", "16"}, nullptr, 4},
+        Case{"morph",
+             "animated/MorphStressTest.gltf",
+             {"--size", kMiddle, "--time", "1.1", "--random-lights", "16"},
+             nullptr,
+             4},
+        Case{"hall_8", "hall/hall_8.glb", {"--size", kMiddle, "--time", "2"}, nullptr, 6},
+        Case{"hall_65", "hall/hall_65.glb", {"--size", kMiddle, "--time", "1"}, nullptr, 30},
+        Case{"sponza", "sponza/sponza.gltf", {"--size", kMiddle}, "sponza/lights_65.json", 30},
         Case{"man_validated",
              "animated/CesiumMan.glb",
              {"--size", kMiddle, "--time", "0.633", "--frames", "3", "--random-lights", "8", "--eye", "1,1,1.2",
@@ -85,20 +95,27 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Scenes, LongScene,
     testing::Values(
-        Case{"sponza", "sponza/sponza.gltf", {"--size", kMiddle}, "sponza/lights_65.json", 30},
-        Case{"hall_8", "hall/hall_8.glb", {"--size", kMiddle, "--time", "2"}, nullptr, 6},
-        Case{"hall_65", "hall/hall_65.glb", {"--size", kMiddle, "--time", "1"}, nullptr, 30},
+        Case{"sponza_1", "sponza/sponza.gltf", {"--size", kMiddle, "--camera", "1"}, "sponza/lights_65.json", 20},
+        Case{"sponza_2", "sponza/sponza.gltf", {"--size", kMiddle, "--camera", "2"}, "sponza/lights_65.json", 20},
+        Case{"hall_256", "hall/hall_256.glb", {"--size", kMiddle, "--time", "4"}, nullptr, 100},
         Case{"accident", "nexuiz_accident/accident.gltf", {"--size", kMiddle}, nullptr, 60},
+        Case{"accident_1", "nexuiz_accident/accident.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 60},
+        Case{"accident_2", "nexuiz_accident/accident.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 60},
         Case{"dieselpower", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle}, nullptr, 60},
+        Case{"dieselpower_1", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 60},
+        Case{"dieselpower_2", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 60},
         Case{"oacmpctf3", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle}, nullptr, 200},
+        Case{"oacmpctf3_1", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 100},
+        Case{"oacmpctf3_2", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 100},
         Case{"black_forest", "stk_black_forest/black_forest.gltf", {"--size", kMiddle}, nullptr, 40},
+        Case{"black_forest_1", "stk_black_forest/black_forest.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 20},
+        Case{"black_forest_2", "stk_black_forest/black_forest.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 20},
         Case{"necropolis", "zad_necropolis/necropolis.gltf", {"--size", kMiddle}, "zad_necropolis/lights_356.json", 40},
-        Case{"stag", "animated/Stag.gltf", {"--size", kMiddle, "--time", "0.5", "--random-lights", "16"}, nullptr, 4},
-        Case{"morph",
-             "animated/MorphStressTest.gltf",
-             {"--size", kMiddle, "--time", "1.1", "--random-lights", "16"},
-             nullptr,
-             4},
+        Case{"necropolis_1",
+             "zad_necropolis/necropolis.gltf",
+             {"--size", kMiddle, "--camera", "1"},
+             "zad_necropolis/lights_356.json",
+             20},
         Case{"houses", "builtin:houses", {"--size", kMiddle}, nullptr, 100},
         Case{"houses_lod_validated",
              "builtin:houses-lod",
@@ -106,5 +123,18 @@ INSTANTIATE_TEST_SUITE_P(
              nullptr,
              100}),
     name_of);
+
+TEST(LongScene, TwoRunsGiveTheSameBits) {
+  const std::string scene = shared_scene("nexuiz_accident/accident.gltf");
+  if (scene.empty()) GTEST_SKIP() << "nexuiz_accident is not in " << UMBRAGE_SCENES_DIR;
+  const TemporaryFolder folder;
+  for (const char* run : {"a", "b"}) {
+    const Outcome outcome = run_program(
+        {"render", scene, "--size", kMiddle, "-o", folder.file(std::string(run) + ".png"), "--dump", folder.file(run)});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  for (const char* name : {"position.npy", "normal.npy", "color.npy", "visibility.npy", "lights.json"})
+    EXPECT_TRUE(read_all(folder.file("a") / name) == read_all(folder.file("b") / name)) << name;
+}
 
 }  // namespace
