@@ -10,7 +10,7 @@ function(umbrage_public_shader target source name)
     OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -D SOURCE=${source} -D ROOT=${PROJECT_SOURCE_DIR}/src -D OUTPUT=${output}
             -P ${PROJECT_SOURCE_DIR}/cmake/umbrage_public_shader.cmake
-    DEPENDS ${headers} ${PROJECT_SOURCE_DIR}/cmake/umbrage_public_shader.cmake
+    DEPENDS ${PROJECT_SOURCE_DIR}/src/${source} ${headers} ${PROJECT_SOURCE_DIR}/cmake/umbrage_public_shader.cmake
     COMMENT "Making ${name}"
     VERBATIM)
   add_custom_target(${target}_public_shader DEPENDS ${output})
