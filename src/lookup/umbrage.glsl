@@ -145,6 +145,11 @@ UMB_FN float stored_depth(Frame frame, uint view, uvec2 texel) {
   return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
 }
 
+/// How far the receiver's plane is moved: at most half-way to the light, which stays in front of it.
+UMB_FN float normal_offset(float texel_m, vec3 relative, vec3 normal) {
+  return clamp(UmbrageNormalOffset * texel_m, 0.0f, max(-0.5f * dot(normal, relative), 0.0f));
+}
+
 /// 1 when nothing nearer than the plane is stored along a direction whose axis depth is 1.
 UMB_FN float tap_perspective(Frame frame, Map map, uint view, uvec2 texel, vec3 normal, vec3 relative, vec3 direction) {
   float depth = receiver_plane_depth(normal, relative, direction);
@@ -155,7 +160,7 @@ UMB_FN float tap_perspective(Frame frame, Map map, uint view, uvec2 texel, vec3 
 UMB_FN float visibility_cube(Frame frame, Map map, vec3 relative, vec3 normal) {
   uint face = face_of_direction(relative);
   vec3 place = face_coordinates(face, relative);
-  relative += normal * (UmbrageNormalOffset * texel_size_m(place.z, 1.0f, map.resolution));
+  relative += normal * normal_offset(texel_size_m(place.z, 1.0f, map.resolution), relative, normal);
   vec2 texels = (place.xy / place.z * 0.5f + 0.5f) * float(map.resolution);
   vec2 base = floor(texels);
   vec2 fraction = texels - base;
@@ -181,7 +186,7 @@ UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal) {
   float depth = dot(view.w_row, relative);
   if (!(depth > 0.0f)) return 1.0f;
   vec2 texels = (vec2(dot(view.x_row, relative), dot(view.y_row, relative)) / depth * 0.5f + 0.5f) * float(map.resolution);
-  relative += normal * (UmbrageNormalOffset * texel_size_m(depth, view.tangent, map.resolution));
+  relative += normal * normal_offset(texel_size_m(depth, view.tangent, map.resolution), relative, normal);
   vec2 base = floor(texels);
   vec2 fraction = texels - base;
   float sum = 0.0f;
@@ -214,7 +219,7 @@ UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 norma
     for (int x = -1; x <= 1; ++x) {
       vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
       vec2 st = (texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
-      float depth = clip.z + dot(gain, st - clip.xy) + 1e-6f;
+      float depth = max(clip.z + dot(gain, st - clip.xy) + 1e-6f, 0.0f);   // 0: behind every caster
       float weight = (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
       sum += weight * (stored_depth(frame, map.first_view, uvec2(texel)) <= depth ? 1.0f : 0.0f);
     }
