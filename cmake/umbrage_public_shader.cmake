@@ -5,12 +5,12 @@
 
 function(umbrage_public_shader target source name)
   set(output ${PROJECT_BINARY_DIR}/include/umbrage/shaders/${name})
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.shared.h)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.shared.h ${PROJECT_SOURCE_DIR}/src/lookup/*.glsl)
   add_custom_command(
     OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -D SOURCE=${source} -D ROOT=${PROJECT_SOURCE_DIR}/src -D OUTPUT=${output}
             -P ${PROJECT_SOURCE_DIR}/cmake/umbrage_public_shader.cmake
-    DEPENDS ${PROJECT_SOURCE_DIR}/src/${source} ${headers} ${PROJECT_SOURCE_DIR}/cmake/umbrage_public_shader.cmake
+    DEPENDS ${headers} ${PROJECT_SOURCE_DIR}/cmake/umbrage_public_shader.cmake
     COMMENT "Making ${name}"
     VERBATIM)
   add_custom_target(${target}_public_shader DEPENDS ${output})

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "clusters/cluster_buffers.glsl"
+#include "clusters/normal_cone.shared.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform PushBlock { AssignPush push; };
 layout(set = 0, binding = 0) uniform texture2D depth_image;

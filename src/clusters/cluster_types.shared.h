@@ -1,5 +1,5 @@
-// Clusters: 32×32-pixel tiles × depth slices (O1), their boxes (O9), normal cones and light lists, and the record of a frame
-// from which a shading shader reaches them.
+// Clusters: 32×32-pixel tiles × depth slices (O1), their boxes (O9) and light lists, and the record of a frame from which a
+// shading shader reaches them.
 #ifndef UMBRAGE_CLUSTERS_TYPES_SHARED_H
 #define UMBRAGE_CLUSTERS_TYPES_SHARED_H
 #include "scene/scene_types.shared.h"
@@ -163,54 +163,6 @@ UMB_FN Box explicit_box(uint bits, Box cell) {
     box.hi[axis] = cell.lo[axis] + step_size[axis] * float(findMSB(line) + 1) + slack;
   }
   return box;
-}
-
-// --- Normal cones: an octahedral map of 8×8 cells, one bit each ------------------------------------------------------
-
-UMB_CONST uint NormalCellsSide = 8u;
-
-UMB_FN vec2 octahedral(vec3 n) {
-  float sum = abs(n.x) + abs(n.y) + abs(n.z);
-  vec2 p = vec2(n.x / sum, n.y / sum);
-  if (n.z >= 0.0f) return p;
-  return vec2((1.0f - abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f), (1.0f - abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f));
-}
-
-UMB_FN vec3 from_octahedral(vec2 p) {
-  vec3 n = vec3(p.x, p.y, 1.0f - abs(p.x) - abs(p.y));
-  float fold = max(-n.z, 0.0f);
-  n.x += n.x >= 0.0f ? -fold : fold;
-  n.y += n.y >= 0.0f ? -fold : fold;
-  return normalize(n);
-}
-
-UMB_FN uint normal_cell(vec3 normal) {
-  vec2 p = octahedral(normal) * 4.0f + vec2(4.0f);
-  return uint(clamp(p.y, 0.0f, 7.0f)) * NormalCellsSide + uint(clamp(p.x, 0.0f, 7.0f));
-}
-
-UMB_FN vec3 normal_cell_corner(uint cell, uint corner) {
-  return from_octahedral(vec2((float(cell % 8u + (corner & 1u)) - 4.0f) * 0.25f, (float(cell / 8u + (corner >> 1u)) - 4.0f) * 0.25f));
-}
-
-/// Axis and cosine of the half-angle of a cone that holds every normal of the marked cells; (0, 0, 1, -1) = any direction.
-UMB_FN vec4 normal_cone(uint low, uint high) {
-  vec3 sum = vec3(0.0f);
-  for (uint cell = 0u; cell < 64u; ++cell) {
-    uint word = cell < 32u ? low : high;
-    if ((word & (1u << (cell & 31u))) == 0u) continue;
-    for (uint corner = 0u; corner < 4u; ++corner) sum += normal_cell_corner(cell, corner);
-  }
-  float size = length(sum);
-  if (size < 1e-3f) return vec4(0.0f, 0.0f, 1.0f, -1.0f);
-  vec3 axis = sum / size;
-  float cosine = 1.0f;
-  for (uint cell = 0u; cell < 64u; ++cell) {
-    uint word = cell < 32u ? low : high;
-    if ((word & (1u << (cell & 31u))) == 0u) continue;
-    for (uint corner = 0u; corner < 4u; ++corner) cosine = min(cosine, dot(axis, normal_cell_corner(cell, corner)));
-  }
-  return vec4(axis.x, axis.y, axis.z, max(cosine - 1e-4f, -1.0f));
 }
 
 UMB_NAMESPACE_END

@@ -2,6 +2,7 @@
 // The compact list: cell, world box and normal cone of every occupied cluster, ordered by tile and slice.
 #extension GL_GOOGLE_include_directive : require
 #include "clusters/cluster_buffers.glsl"
+#include "clusters/normal_cone.shared.h"
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform PushBlock { CompactPush push; };
 

@@ -52,7 +52,7 @@ foreach(file IN LISTS files)
   stage_of(${file} name)
   if(name STREQUAL lookup)  # what hosts include is made of headers that C++ and GLSL share, of any stage
     includes_of(${file} included)
-    list(FILTER included EXCLUDE REGEX "\\.shared\\.h$")
+    list(FILTER included EXCLUDE REGEX "\\.shared\\.h$|^lookup/")
     if(included)
       string(APPEND faults "  ${file} includes ${included}: only *.shared.h are for hosts\n")
     endif()
