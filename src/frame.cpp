@@ -22,7 +22,7 @@ void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
   store.record_views(recorder, block, counters, scene, clusters.used_lights(), plan.all_lights);
 
   // Views → the batches each needs (O6) → depth (O12), by one multi-draw or a pass per view.
-  const culling::CasterCulling::Inputs cull{scene, store.views(), counters, clusters.used_lights(), caster_shape(), plan.settings.caster_culling};
+  const culling::CasterCulling::Inputs cull{scene, store.views(), counters, clusters.used_lights(), block, caster_shape(), plan.settings.caster_culling};
   const raster::Writers::Inputs write{scene, store, culling, cull, max_draws};
   if (scene.light_slots() > 0 && plan.settings.writer == Writer::multi_draw) {
     culling.record_count(recorder, cull);

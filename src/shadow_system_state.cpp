@@ -67,6 +67,7 @@ Result<FrameSlot*> ShadowSystem::State::free_slot(const FrameDesc& desc) {
 
 void ShadowSystem::State::collect(uint64_t completed_serial) {
   retired.collect(completed_serial);
+  frame->scene.collect(completed_serial);
   const FrameSlot* newest = nullptr;
   for (const FrameSlot& slot : slots)
     if (slot.serial > statistics.serial && slot.serial <= completed_serial && (!newest || slot.serial > newest->serial)) newest = &slot;

@@ -41,12 +41,19 @@ class IdPool {
   const T* find(uint32_t id) const { return const_cast<IdPool*>(this)->find(id); }
   /// Precondition: find(id).
   void remove(uint32_t id) {
-    const uint32_t slot = slot_of(id);
-    Entry& entry = entries_[slot];
+    retire(id);
+    release(slot_of(id));
+  }
+  /// As remove, but the slot is not handed out again before release(). Precondition: find(id).
+  void retire(uint32_t id) {
+    Entry& entry = entries_[slot_of(id)];
     entry.alive = false;
     entry.value = {};
-    if (entry.generation < kMaxGeneration) free_.push_back(slot);
     --count_;
+  }
+  /// Precondition: the slot was retired.
+  void release(uint32_t slot) {
+    if (entries_[slot].generation < kMaxGeneration) free_.push_back(slot);
   }
   static uint32_t slot_of(uint32_t id) { return id & (kMaxSlots - 1); }
   uint32_t slots() const { return static_cast<uint32_t>(entries_.size()); }

@@ -65,6 +65,7 @@ Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memo
 
 shared::TraversePush CasterCulling::inputs(gpu::Pass& pass, const Inputs& in) const {
   const scene::BoxTree& tree = in.scene.caster_tree();
+  pass.read(in.frame);
   return {.lights = pass.read(in.scene.light_buffer()), .views = pass.read(in.views), .casters = pass.read(in.scene.caster_buffer()),
           .instances = pass.read(in.scene.instance_buffer()), .batches = pass.read(in.scene.batch_buffer()),
           .order = pass.read(tree.order()), .leaves = pass.read(tree.leaves()), .nodes = pass.read(tree.nodes()), .shape = in.tree_shape};

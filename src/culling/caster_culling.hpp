@@ -19,7 +19,8 @@ class CasterCulling {
     const gpu::Buffer& views;
     const gpu::Buffer& counters;
     const gpu::Buffer& used_lights;
-    VkDeviceAddress tree_shape;
+    const gpu::Buffer& frame;
+    VkDeviceAddress tree_shape;   ///< In `frame`.
     umbrage::CasterCulling mode;
   };
   /// Counts instances and scans them; their number goes to FrameCounters::caster_pairs.

@@ -184,10 +184,20 @@ Result<void> GpuScene::upload(gpu::Uploader& uploader, gpu::RetireQueue& retired
   for (std::unique_ptr<gpu::Buffer>& buffer : removed_buffers_) retired.retire(std::move(*buffer), serial);
   outgrown_.clear();
   removed_buffers_.clear();
+  for (RemovedMask& mask : removed_masks_)
+    if (mask.serial == 0) mask.serial = serial;
   stage_meshes(uploader);
   stage_records(uploader);
   stage_moved(uploader);
   return {};
+}
+
+void GpuScene::collect(uint64_t completed_serial) {
+  std::erase_if(removed_masks_, [&](const RemovedMask& mask) {
+    const bool unused = mask.serial != 0 && mask.serial <= completed_serial;
+    if (unused) masks_.release(mask.slot);
+    return unused;
+  });
 }
 
 void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, gpu::Uploader& uploader,

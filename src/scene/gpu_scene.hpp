@@ -56,6 +56,8 @@ class GpuScene {
 
   struct MaskEntry { VkImageView view; VkSampler sampler; uint32_t users = 0; };
   IdPool<MaskEntry>& masks() { return masks_; }
+  /// Frames up to this serial have finished: descriptors of masks removed before them may be written again.
+  void collect(uint64_t completed_serial);
   /// Slots whose descriptor must be written; cleared by the caller.
   std::vector<uint32_t>& new_masks() { return new_masks_; }
 
@@ -118,6 +120,8 @@ class GpuScene {
   std::vector<shared::CasterRecord> casters_;           // host mirror
   std::vector<std::pair<uint32_t, uint32_t>> dirty_casters_;  // first, count
   std::vector<std::unique_ptr<gpu::Buffer>> removed_buffers_;
+  struct RemovedMask { uint32_t slot; uint64_t serial; };  // of the first frame without it; 0: not begun yet
+  std::vector<RemovedMask> removed_masks_;
   std::vector<gpu::Buffer> outgrown_;
   bool lights_edited_ = true;
 

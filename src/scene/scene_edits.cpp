@@ -245,7 +245,8 @@ Result<void> GpuScene::remove(MaskId id) {
   if (!mask) return stale("mask", id.value);
   if (mask->users) return invalid("remove: mask " + std::to_string(id.value) + " is used by a mesh");
   std::erase(new_masks_, IdPool<MaskEntry>::slot_of(id.value));
-  masks_.remove(id.value);
+  masks_.retire(id.value);
+  removed_masks_.push_back({IdPool<MaskEntry>::slot_of(id.value), 0});
   return {};
 }
 
