@@ -29,8 +29,7 @@ std::vector<int> parents_of(const std::vector<tinygltf::Node>& nodes) {
     if (parents[i] < 0) reached.push_back(static_cast<int>(i));
   }
   for (size_t i = 0; i < reached.size(); ++i) {
-    const auto& children = nodes[static_cast<size_t>(reached[i])].children;
-    reached.insert(reached.end(), children.begin(), children.end());
+    for (const int child : nodes[static_cast<size_t>(reached[i])].children) reached.push_back(child);
   }
   if (reached.size() < nodes.size()) {
     std::ranges::sort(reached);

@@ -11,6 +11,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include "scenes/builtin.hpp"
 
@@ -19,8 +20,8 @@ namespace {
 using app::Scene;
 using glm::vec3;
 
-const Scene& scene(const std::string& name) {
-  static std::map<std::string, Scene> made;
+const Scene& scene(std::string_view name) {
+  static std::map<std::string, Scene, std::less<>> made;
   const auto found = made.find(name);
   if (found != made.end()) return found->second;
   auto result = app::builtin_scene(name);
@@ -367,7 +368,7 @@ TEST(Houses, LowDetailHasTheSameTown) {
 TEST(Houses, ListedAndRefusedByName) {
   for (const app::BuiltinInfo& info : app::builtin_scenes()) {
     EXPECT_FALSE(info.summary.empty());
-    EXPECT_EQ(scene(std::string(info.name)).name, info.name);
+    EXPECT_EQ(scene(info.name).name, info.name);
   }
   for (const char* name : {"", "house", "HOUSES", "houses "}) {
     const auto result = app::builtin_scene(name);
