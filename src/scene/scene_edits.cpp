@@ -136,7 +136,6 @@ Result<InstanceId> GpuScene::add_instance(const InstanceDesc& desc) {
   if (mesh->masked) ++masked_batches_;
   if (added.caster_count) dirty_casters_.push_back({added.first_caster, added.caster_count});
   dirty_instances_.push_back(slot);
-  mark_moved(slot);
   return InstanceId{id};
 }
 

@@ -2,6 +2,8 @@
 #define VOLK_IMPLEMENTATION
 #include "gpu.hpp"
 
+#include <dlfcn.h>
+
 #include <array>
 #include <cstring>
 #include <utility>
@@ -114,6 +116,8 @@ Gpu::Gpu() {
   };
   owner_ = std::make_unique<HeadlessDevice>(take(HeadlessDevice::create(
       {.get_instance_proc_addr = vkGetInstanceProcAddr, .validate = true, .message = collect, .message_user = this})));
+  // Stays loaded, so that the leak checker knows the layers' own leaks by name (tests/lsan.supp).
+  dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
   desc_ = owner_->desc();
   queue_ = owner_->queue();
   volkLoadInstance(desc_.instance);
@@ -145,6 +149,11 @@ Gpu::Gpu() {
 Gpu::~Gpu() {
   vkDestroyDescriptorPool(desc_.device, sets_, nullptr);
   vkDestroyCommandPool(desc_.device, commands_, nullptr);
+  factory_.reset();
+  memory_.reset();
+  device_.reset();
+  owner_.reset();   // the layers name what has been left behind
+  for (const std::string& message : messages_) ADD_FAILURE() << "validation: " << message;
 }
 
 VkCommandBuffer Gpu::begin() {

@@ -115,7 +115,8 @@ constexpr std::array<float, 7> kSlopes{0, 20, 45, 60, 75, 80, 85};
 
 /// A plane 3 m down a light's direction, whose normal makes an angle with that direction; and points on it.
 void add_slope(const glm::vec3& origin, uint32_t index, TestScene& scene, std::vector<Sample>& samples) {
-  const uint32_t kind = index / kSlopes.size(), mask = 1u << index;
+  const auto kind = static_cast<uint32_t>(index / kSlopes.size());
+  const uint32_t mask = 1u << index;
   std::mt19937 engine(index);
   const glm::mat3 turn = random_turn(engine);
   const float angle = glm::radians(kSlopes[index % kSlopes.size()]);
