@@ -102,8 +102,10 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   statistics.lights_degraded = static_cast<uint32_t>(degraded.size());
 
   if (counters.pairs_found > pair_capacity) pair_capacity = counters.pairs_found + counters.pairs_found / 4;
-  caster_pairs_seen = counters.caster_pairs;
-  caster_pairs_known = slot.serial >= edit_serial;
+  if (slot.serial >= edit_serial) {
+    caster_pairs_seen = caster_pairs_known ? std::max<uint64_t>(caster_pairs_seen, counters.caster_pairs) : counters.caster_pairs;
+    caster_pairs_known = true;
+  }
 }
 
 Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settings) {
@@ -123,8 +125,11 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   if (auto ok = frame->clusters.reserve(*device, *memory, camera.tiles, pair_capacity, light_slots, outgrown); !ok) return ok.error();
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
 
+  // Room for half as many pairs again as any frame has needed, so that one round does; for what nothing is known of yet, as
+  // many as the rounds demand.
   const uint64_t most_pairs = uint64_t(layout.views) * std::max(scene.casters(), 1u);
-  const uint64_t needed = std::min<uint64_t>(most_pairs, std::max<uint64_t>(settings.max_caster_pairs, (most_pairs + kMaxRounds - 1) / kMaxRounds));
+  const uint64_t expected = caster_pairs_known ? std::min<uint64_t>(caster_pairs_seen * 3 / 2, kMaxGrownPairs) : (most_pairs + kMaxRounds - 1) / kMaxRounds;
+  const uint64_t needed = std::min(most_pairs, std::max<uint64_t>(settings.max_caster_pairs, expected));
   const uint32_t most_at_once = std::min(1u << 20, device->limits().max_draw_indirect_count);
   const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(needed, 1024, most_at_once));
   const bool traditional = desc.settings.writer == Writer::traditional;
@@ -155,8 +160,8 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
 uint32_t ShadowSystem::State::plan_rounds() {
   const uint64_t capacity = frame->culling.capacity();
   const uint64_t most = uint64_t(layout.views) * frame->scene.casters();
-  // Half as many again as the last frame needed: movement adds pairs. Without a last frame, the most there can be.
-  const uint64_t expected = caster_pairs_known ? std::min(most, caster_pairs_seen + caster_pairs_seen / 2 + capacity / 2) : most;
+  // Half as many again as any frame has needed: movement adds pairs. With nothing known, the most there can be.
+  const uint64_t expected = caster_pairs_known ? std::min(most, caster_pairs_seen * 3 / 2) : most;
   return static_cast<uint32_t>(std::clamp<uint64_t>((expected + capacity - 1) / capacity, 1, kMaxRounds));
 }
 

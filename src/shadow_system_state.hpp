@@ -25,6 +25,7 @@ struct FrameSlot {
 
 struct ShadowSystem::State {
   static constexpr uint32_t kMaxRounds = 128;
+  static constexpr uint64_t kMaxGrownPairs = 1u << 19;   // 80 MB; more pairs take more rounds
 
   ~State();
   Result<void> create_sets(uint32_t frames_in_flight);
@@ -59,8 +60,8 @@ struct ShadowSystem::State {
   std::vector<gpu::Buffer> outgrown;
   uint64_t last_serial = 0;
   uint32_t pair_capacity = 0;       // cluster/light pairs, grown from what frames report
-  uint64_t caster_pairs_seen = 0;   // of the newest finished frame
-  bool caster_pairs_known = false;  // and nothing has been edited since it was recorded
+  uint64_t caster_pairs_seen = 0;   // most of any frame since the newest edit
+  bool caster_pairs_known = false;  // and there has been one
   uint64_t edit_serial = 0;         // first frame that holds the newest edits
   bool edited = true;
 
