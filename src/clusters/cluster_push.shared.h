@@ -41,7 +41,6 @@ struct LightListPush {         // list_lights
   uint64_t boxes;              // of clusters
   uint64_t lights;
   uint64_t order;              // light tree
-  uint64_t leaves;
   uint64_t nodes;
   uint64_t counts;             // count: lights per cluster; write: their first indices
   uint64_t lists;
@@ -49,7 +48,7 @@ struct LightListPush {         // list_lights
   uint64_t used;               // one word a light slot
   uint64_t shape;              // TreeShape
 };
-UMB_ASSERT_SIZE(LightListPush, 96);
+UMB_ASSERT_SIZE(LightListPush, 88);
 
 UMB_NAMESPACE_END
 #endif

@@ -121,8 +121,7 @@ void Clusters::record_lights(gpu::Recorder& recorder, const gpu::Buffer& frame, 
   shared::LightListPush push{.shape = tree_shape};
   const auto inputs = [&](gpu::Pass& pass) {
     push.frame = pass.read(frame), push.boxes = pass.read(boxes_), push.lights = pass.read(scene.light_buffer());
-    push.order = pass.read(scene.light_tree().order()), push.leaves = pass.read(scene.light_tree().leaves());
-    push.nodes = pass.read(scene.light_tree().nodes());
+    push.order = pass.read(scene.light_tree().order()), push.nodes = pass.read(scene.light_tree().nodes());
     pass.read(scene.light_order_buffer());
   };
   const uint32_t groups = (cluster_capacity_ + 63) / 64;

@@ -34,7 +34,7 @@ void walk(Box box, uint first) {
   if (height == 0u) return;
   while (true) {
     if (height == 0u) {
-      if (boxes_meet(Boxes(push.leaves).v[i], box)) try_leaf(i, box, first);
+      try_leaf(i, box, first);
     } else if (boxes_meet(Boxes(push.nodes).v[shape.first[height - 1u] + i], box)) {
       --height;
       i *= TreeWidth;

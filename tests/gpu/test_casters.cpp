@@ -167,9 +167,9 @@ TEST_F(Casters, InManyRoundsMakeTheSameDepth) {
     SystemRig rig(gpu(), {.budget_mib = 16, .max_caster_pairs = at_once});
     rig.add(scene);
     rig.show_nothing();
-    for (int frame = 0; frame < 2; ++frame) {   // the second knows how many rounds it takes
+    for (int frame = 0; frame < 2; ++frame) {   // the second knows how many pairs there are and has room for them in one round
       rig.frame({.max_resolution = 64});
-      if (at_once == 1024) {
+      if (at_once == 1024 && frame == 0) {
         EXPECT_GT(rig.counters().caster_pairs, 2 * rig.stages().culling.capacity());
         EXPECT_GE(rig.state().plan.caster_rounds, 3u);
       } else {
