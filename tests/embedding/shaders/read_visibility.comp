@@ -1,4 +1,5 @@
-// Writes what umbrage_visibility() says, for every pixel and light; -1 stays where the light is not in the pixel's list.
+// Writes what umbrage_visibility() says, for every pixel and light; -1 stays where the light is not in the pixel's
+// list or not in front of the surface, where the include promises nothing.
 // Behind a pixel's lights: the cosine of its cluster's normal cone, or -2 where the cone misses the pixel's normal.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -40,8 +41,10 @@ void main() {
   UmbrageCluster cluster = umbrage_cluster(shadows, pixel, depth);
   uint first = uint(texel.y * size.x + texel.x) * (push.lights + 1u);
   for (uint i = 0u; i < cluster.count; i++) {
-    uint light = umbrage_light(shadows, cluster, i).host_index;
-    Visibility(push.visibility).of[first + light] = umbrage_visibility(shadows, cluster, i, position_ws, normal_ws);
+    UmbrageLight light = umbrage_light(shadows, cluster, i);
+    vec3 to_light = light.type == 2u ? -light.direction_ws : light.position_ws - position_ws;
+    if (dot(normal_ws, to_light) <= 0.01 * length(to_light)) continue;   // some surfaces lie in a light's own plane
+    Visibility(push.visibility).of[first + light.host_index] = umbrage_visibility(shadows, cluster, i, position_ws, normal_ws);
   }
   if (cluster.count == 0u) return;
   vec4 cone = umbrage_cluster_cone(shadows, cluster.index);
