@@ -152,8 +152,7 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   known.texels_allocated = frame->store.texels();
   known.shadow_memory_bytes = frame->store.texels() * sizeof(uint32_t);
   known.table_memory_bytes = memory->bytes_in_use(gpu::MemoryKind::device) - std::min(memory->bytes_in_use(gpu::MemoryKind::device), known.shadow_memory_bytes);
-  for (uint32_t i = 0; i < light_slots; ++i)
-    if (scene.lights().alive(i) && scene.lights().at(i).record.view_count) ++known.shadow_maps;
+  known.shadow_maps = layout.maps;
   return {};
 }
 

@@ -73,6 +73,7 @@ AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uin
       changed.push_back(slot);
     }
     next += count;
+    layout.maps += count > 0;
   }
   return layout;
 }
