@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Measures what docs/results/first-form.md reports: measure_first_form.py PROGRAM SCENES_DIR [ROUNDS].
+
+Every comparison interleaves its sides and prints medians, so that a noisy machine moves both alike.
+"""
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+
+program, scenes = sys.argv[1], sys.argv[2]
+rounds = int(sys.argv[3]) if len(sys.argv) > 3 else 3
+device = None
+
+
+def stats(*arguments, frames=3, size="640x360"):
+    global device
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program, "render", *arguments, "--size", size, "--frames", str(frames),
+                   "-o", f"{folder}/out.png", "--stats", f"{folder}/stats.json"]
+        subprocess.run(command, check=True)
+        with open(f"{folder}/stats.json", encoding="utf-8") as file:
+            result = json.load(file)
+    device = result["driver"]
+    return result
+
+
+def medians(sides, figure, frames=3):
+    """sides: name → arguments. Interleaved rounds; the median of figure(stats) of each."""
+    seen = {name: [] for name in sides}
+    for _ in range(rounds):
+        for name, arguments in sides.items():
+            seen[name].append(figure(stats(*arguments, frames=frames)))
+    return {name: statistics.median(values) for name, values in seen.items()}
+
+
+def light_lists():
+    print("\n## Lights per cluster: hierarchy against brute force (GPU ms of `light lists`, houses-lod, 640×360)\n")
+    print("| lights | hierarchy | brute force | ratio |\n|---|---|---|---|")
+    for lights in (16, 64, 256, 1024, 4096):
+        scene = ["builtin:houses-lod", "--no-scene-lights", "--random-lights", str(lights), "--set", "max_resolution=16", "--budget", "64"]
+        got = medians({kind: scene + ["--set", f"light_assignment={kind}"] for kind in ("hierarchy", "brute_force")},
+                      lambda s: s["passes"]["light lists"])
+        print(f"| {lights} | {got['hierarchy']:.2f} | {got['brute_force']:.2f} | {got['brute_force'] / got['hierarchy']:.2f} |", flush=True)
+
+
+def recording():
+    print("\n## CPU time of recording (ms a frame, houses-lod, 640×360)\n")
+    print("| writer | 16 lights | 1024 lights | ratio |\n|---|---|---|---|")
+    for writer in ("multi_draw", "traditional"):
+        scene = ["builtin:houses-lod", "--no-scene-lights", "--set", f"writer={writer}", "--set", "max_resolution=16", "--budget", "64"]
+        got = medians({n: scene + ["--random-lights", n] for n in ("16", "1024")}, lambda s: s["cpu_record_ms"], frames=12)
+        print(f"| {writer} | {got['16']:.3f} | {got['1024']:.3f} | {got['1024'] / got['16']:.2f} |", flush=True)
+
+
+def hall():
+    print("\n## hall, 640×360, every light moving (whole frame, ms)\n")
+    print("| lights | frame | raster | shade | map | triangles drawn |\n|---|---|---|---|---|---|")
+    for lights in (8, 65, 256):
+        runs = [stats(f"{scenes}/hall/hall_{lights}.glb", frames=6) for _ in range(rounds)]
+        run = sorted(runs, key=lambda s: s["frame_ms"])[len(runs) // 2]
+        print(f"| {lights} | {run['frame_ms']:.0f} | {run['passes']['raster']:.0f} | {run['passes']['shade']:.0f} | "
+              f"{run['map_resolution']}² | {run['triangles_drawn']:,} |", flush=True)
+
+
+def writers():
+    print("\n## Writers and culling (GPU ms of the shadow passes, 640×360)\n")
+    print("| scene | fixed-cubes | default | default, pass per view | triangles, fixed-cubes / default |\n|---|---|---|---|---|")
+    for name, scene in (("houses", ["builtin:houses"]), ("sponza", [f"{scenes}/sponza/sponza.gltf", "--lights", f"{scenes}/sponza/lights_65.json"])):
+        drawn = {}
+        host = ("deform", "gbuffer", "shade", "blend", "exposure", "tone_map")
+
+        def shadow(s):
+            drawn[s["preset"], s["settings"]["writer"]] = s["triangles_drawn"]
+            return sum(ms for passed, ms in s["passes"].items() if passed not in host)
+        got = medians({"fixed": scene + ["--preset", "fixed-cubes"], "default": scene, "traditional": scene + ["--set", "writer=traditional"]}, shadow)
+        ratio = drawn["fixed-cubes", "multi_draw"] / drawn["default", "multi_draw"]
+        print(f"| {name} | {got['fixed']:.0f} | {got['default']:.0f} | {got['traditional']:.0f} | {ratio:.2f} |", flush=True)
+
+
+light_lists()
+recording()
+writers()
+hall()
+print(f"\nDriver: {device}; medians of {rounds} interleaved rounds.")
