@@ -57,9 +57,24 @@ struct FrameRecord {
   uint atlas_columns;        // tiles along the atlas' side
   uint atlas_resolution;     // texels along a tile's side
   uint explicit_bounds;      // ClusterBounds
-  uint pad;
+  uint store;                // StoreAtlas, StorePool
+  // Virtual shadow maps (maps/map_types.shared.h); 0 with fixed cubes.
+  uint64_t maps;             // MapRecord
+  uint64_t light_maps;       // LightMaps per light slot
+  uint64_t pair_maps;        // map of each cluster/light pair, or NoIndex: it faces away
+  uint64_t page_bits;        // words: which pages there are
+  uint64_t page_first;       // words: where they begin in the pool, in PoolUnit texels
+  uint64_t pool;             // depth keys
+  uint64_t projection;       // receivers: ProjectionSide words a view
+  uint64_t receiver_depth;   // bits of the farthest receiver depth, receiver_grid² a view
+  uint receiver_grid;        // cells along a view's side: 1 (PMCD), 2 … 32
+  uint map_capacity;
 };
-UMB_ASSERT_SIZE(FrameRecord, 312);
+UMB_ASSERT_SIZE(FrameRecord, 384);
+
+/// FrameRecord::store.
+UMB_CONST uint StoreAtlas = 0u;
+UMB_CONST uint StorePool = 1u;
 
 /// What the frame counts; set to 0 (pair_limit by the host) when it begins. The first words are arguments of indirect dispatches.
 struct FrameCounters {

@@ -1,6 +1,7 @@
 // (batch, view) pairs and what draws are made of them.
 #ifndef UMBRAGE_CULLING_TYPES_SHARED_H
 #define UMBRAGE_CULLING_TYPES_SHARED_H
+#include "maps/map_types.shared.h"
 #include "store/store_types.shared.h"
 
 UMB_NAMESPACE_BEGIN
@@ -23,6 +24,14 @@ struct CasterInstance {
   uint caster;
 };
 UMB_ASSERT_SIZE(CasterInstance, 112);
+
+/// A batch drawn into some views of a map: the work item of the page pool's writers.
+struct CasterItem {
+  uint caster;
+  uint map;
+  uint faces;                        // bit v: into view v of the map
+};
+UMB_ASSERT_SIZE(CasterItem, 12);
 
 /// VkDrawIndexedIndirectCommand.
 struct DrawCommand {

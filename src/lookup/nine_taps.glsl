@@ -78,10 +78,10 @@ UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal) {
 
 UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 normal) {
   ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[map.first_view];
-  vec4 clip = view_clip_position(view, position_ws + normal * (UmbrageNormalOffset * view.texel_m));
+  vec4 clip = view_clip_position(view, position_ws + normal * (UmbrageNormalOffset * view.side_m / float(map.resolution)));
   vec4 own = view_clip_position(view, position_ws);
   if (any(greaterThan(abs(own.xy), vec2(1.0f)))) return 1.0f;   // beyond every caster
-  float half_side = view.texel_m * float(map.resolution) * 0.5f;
+  float half_side = view.side_m * 0.5f;
   vec3 forward = normalize(-view.z_row);
   float slope = min(dot(normal, forward), -0.02f);
   // Depth gained along the receiver's plane with each unit of clip x and y.

@@ -156,8 +156,8 @@ void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position
   vec3 step_v;
   if (record.views == ViewsOrtho) {
     ray = -view.z_row;
-    step_u = normalize(view.x_row) * view.texel_m;
-    step_v = normalize(view.y_row) * view.texel_m;
+    step_u = normalize(view.x_row) * (view.side_m / float(record.resolution));
+    step_v = normalize(view.y_row) * (view.side_m / float(record.resolution));
   } else {
     vec3 x_axis = view.x_row * view.tangent;
     vec3 y_axis = view.y_row * view.tangent;

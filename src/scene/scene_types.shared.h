@@ -2,17 +2,13 @@
 #ifndef UMBRAGE_SCENE_TYPES_SHARED_H
 #define UMBRAGE_SCENE_TYPES_SHARED_H
 #include "core/limits.shared.h"
+#include "views/shadow_view.shared.h"
 
 UMB_NAMESPACE_BEGIN
 
 UMB_CONST uint LightPoint = 0u;
 UMB_CONST uint LightSpot = 1u;
 UMB_CONST uint LightDirectional = 2u;
-
-/// How a light's views are laid out.
-UMB_CONST uint ViewsCube = 0u;    // six faces
-UMB_CONST uint ViewsSpot = 1u;    // one perspective view
-UMB_CONST uint ViewsOrtho = 2u;   // one orthographic view
 
 /// A light as the host described it, and where its map lies. One per slot; dead slots have type = NoIndex.
 struct LightRecord {

@@ -33,11 +33,13 @@ void main() {
   if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
   uint columns = Frame(push.frame).record.atlas_columns;
   uint tile_resolution = Frame(push.frame).record.atlas_resolution;
+  Box box = scene_box();
   for (uint i = 0u; i < light.view_count; ++i) {
     ShadowView view;
-    if (light.views == ViewsOrtho) view = ortho_view(light, scene_box());
-    else if (light.views == ViewsCube) view = perspective_view(light, face_rotation(i), 1.0);
-    else view = perspective_view(light, view_rotation(light.direction_ws), spot_tangent(light.outer_cone_rad, light.resolution, ViewGuardTexels));
+    if (light.views == ViewsOrtho) view = ortho_view(light.direction_ws, box.lo, box.hi, light.resolution, ViewGuardTexels);
+    else if (light.views == ViewsCube) view = perspective_view(light.position_ws, light.near_m, face_rotation(i), 1.0);
+    else view = perspective_view(light.position_ws, light.near_m, view_rotation(light.direction_ws), spot_tangent(light.outer_cone_rad, light.resolution, ViewGuardTexels));
+    view.resolution = light.resolution;
     uvec2 tile = atlas_tile(light.first_view + i, columns, tile_resolution);
     view.atlas_x = tile.x;
     view.atlas_y = tile.y;

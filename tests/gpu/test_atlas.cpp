@@ -99,7 +99,7 @@ Rays rays_of(const LightDesc& light, const shared::LightRecord& record, const sh
     const double tangent = std::tan(double(light.outer_cone_rad)) * record.resolution / (record.resolution - 2.0 * shared::ViewGuardTexels);
     rays.direction = [=](double s, double t) { return rows[2] + rows[0] * (s * tangent) + rows[1] * (t * tangent); };
   } else {
-    const double half_side = 0.5 * view.texel_m * record.resolution;
+    const double half_side = 0.5 * view.side_m;
     const dvec3 x(glm::normalize(dvec3(view.x_row))), y(glm::normalize(dvec3(view.y_row))), origin(view.origin), z_row(view.z_row);
     const dvec3 forward = glm::normalize(dvec3(to_glm(light.direction)));
     const double z_offset = view.z_offset;

@@ -1,0 +1,81 @@
+// Shadow maps: a light at one resolution, its pages, and what is known of the receivers that look at it.
+#ifndef UMBRAGE_MAPS_TYPES_SHARED_H
+#define UMBRAGE_MAPS_TYPES_SHARED_H
+#include "clusters/cluster_types.shared.h"
+#include "views/shadow_view.shared.h"
+
+UMB_NAMESPACE_BEGIN
+
+/// Texels along a page's side. Maps below it are one page of their own side a view.
+UMB_CONST uint PageSide = 128u;
+/// Places in the pool are counted in units of so many texels.
+UMB_CONST uint PoolUnit = 16u;
+/// Resolutions: powers of two 2^MinLevel … 2^MaxLevel (levels), or any multiple of the page (exact).
+UMB_CONST uint MinLevel = 2u;
+UMB_CONST uint MaxLevel = 13u;
+UMB_CONST uint MaxMapsPerLight = 16u;
+/// O7: tiles along a projection map's side.
+UMB_CONST uint ProjectionSide = 32u;
+
+/// A light's views at one resolution. Views are numbered first_view … first_view + view_count-1 among the shadow views.
+struct MapRecord {
+  uint light;              // slot
+  uint first_view;
+  uint view_count;         // 6 or 1
+  uint kind;               // ViewsCube, ViewsSpot, ViewsOrtho
+  uint resolution;         // texels along a view's side
+  uint pages;              // along a view's side
+  uint words;              // page words a view: bit y * pages + x, from the lowest
+  uint first_word;         // of the first view
+  uint first_receiver;     // of the first view in projection maps and depth grids
+  uint faces;              // bit v: view v has receivers (the map's cube-face mask)
+  uint whole;              // 1: every page is marked and nothing is known of the receivers
+  uint light_mask;
+};
+UMB_ASSERT_SIZE(MapRecord, 48);
+
+/// The maps of a light: first … first + count-1, finest first; `whole` is one of them or NoIndex.
+struct LightMaps {
+  uint first;
+  uint count;
+  uint whole;
+  uint shift;              // halvings of what was asked for, because the budget is short
+};
+UMB_ASSERT_SIZE(LightMaps, 16);
+
+UMB_FN uint pages_of(uint resolution) { return (resolution + PageSide - 1u) / PageSide; }
+UMB_FN uint page_side_of(uint resolution) { return min(resolution, PageSide); }
+UMB_FN uint page_words_of(uint pages) { return (pages * pages + 31u) / 32u; }
+/// Pool units of one page of a map.
+UMB_FN uint page_units_of(uint resolution) {
+  uint side = page_side_of(resolution);
+  return side * side / PoolUnit;
+}
+
+/// Where the page of a texel is found: a word of page bits and the bit in it.
+struct PagePlace {
+  uint word;
+  uint bit;
+};
+UMB_ASSERT_SIZE(PagePlace, 8);
+
+UMB_FN PagePlace page_place(MapRecord map, uint view, uvec2 texel) {
+  uint page = (texel.y / PageSide) * map.pages + texel.x / PageSide;
+  PagePlace place;
+  place.word = map.first_word + view * map.words + page / 32u;
+  place.bit = page % 32u;
+  return place;
+}
+
+/// First texel in the pool of a page whose bit is set. bits: of the word; first: the word's place in units.
+UMB_FN uint page_texel(uint bits, uint first, uint bit, uint resolution) {
+  return (first + uint(bitCount(bits & ((1u << bit) - 1u))) * page_units_of(resolution)) * PoolUnit;
+}
+
+/// A texel within its page.
+UMB_FN uint texel_in_page(uvec2 texel, uint resolution) {
+  return (texel.y % PageSide) * page_side_of(resolution) + texel.x % PageSide;
+}
+
+UMB_NAMESPACE_END
+#endif

@@ -1,0 +1,2 @@
+// Compiles the shared header's assertions.
+#include "maps/map_types.shared.h"

@@ -1,0 +1,133 @@
+// The one abstraction: a picture taken from a light. A point light is six of them, a spot one, a directional light one.
+#ifndef UMBRAGE_VIEWS_SHADOW_VIEW_SHARED_H
+#define UMBRAGE_VIEWS_SHADOW_VIEW_SHARED_H
+#include "views/cube_projection.shared.h"
+#include "views/view_math.shared.h"
+
+UMB_NAMESPACE_BEGIN
+
+/// How a light's views are laid out.
+UMB_CONST uint ViewsCube = 0u;    // six faces
+UMB_CONST uint ViewsSpot = 1u;    // one perspective view
+UMB_CONST uint ViewsOrtho = 2u;   // one orthographic view
+
+/// A cube face, a spot's cone or an ortho box. Clip position of a world position p, with r = p - origin:
+/// (x_row·r, y_row·r, z_row·r + z_offset, w_row·r + w_offset); z/w is reversed, 1 at the near plane.
+struct ShadowView {
+  vec3 origin;
+  float near_m;            // perspective
+  vec3 x_row;
+  float z_offset;
+  vec3 y_row;
+  float w_offset;
+  vec3 z_row;
+  uint light;              // slot, or NoIndex: nothing to draw
+  vec3 w_row;
+  uint resolution;         // fixed cubes: texels along a side
+  uint atlas_x, atlas_y;   // fixed cubes: first texel
+  float tangent;           // perspective: of the half-angle
+  float side_m;            // ortho: world size of the view's side
+};
+UMB_ASSERT_SIZE(ShadowView, 96);
+
+UMB_FN vec4 view_clip_position(ShadowView view, vec3 position_ws) {
+  vec3 r = position_ws - view.origin;
+  return vec4(dot(view.x_row, r), dot(view.y_row, r), dot(view.z_row, r) + view.z_offset, dot(view.w_row, r) + view.w_offset);
+}
+
+UMB_FN ShadowView perspective_view(vec3 origin, float near_m, mat3 rotation, float tangent) {
+  mat3 rows = transpose(rotation);
+  ShadowView view;
+  view.origin = origin;
+  view.near_m = near_m;
+  view.x_row = rows[0] / tangent;
+  view.y_row = rows[1] / tangent;
+  view.z_row = vec3(0.0f);
+  view.z_offset = near_m;
+  view.w_row = rows[2];
+  view.w_offset = 0.0f;
+  view.tangent = tangent;
+  view.side_m = 0.0f;
+  view.resolution = 0u;
+  view.light = 0u;
+  view.atlas_x = 0u;
+  view.atlas_y = 0u;
+  return view;
+}
+
+/// Along a direction, around a world box, with `guard` texels to spare on every side at a resolution.
+UMB_FN ShadowView ortho_view(vec3 direction, vec3 box_min, vec3 box_max, uint resolution, uint guard) {
+  mat3 rotation = view_rotation(direction);
+  mat3 rows = transpose(rotation);
+  OrthoFit fit = ortho_fit(rotation, box_min, box_max, resolution, guard);
+  float half_side = fit.texel_m * float(resolution) * 0.5f;
+  float range = max(fit.depth_max - fit.depth_min, 1e-6f);
+  ShadowView view;
+  view.origin = rows[0] * (fit.origin.x + half_side) + rows[1] * (fit.origin.y + half_side);
+  view.near_m = 0.0f;
+  view.x_row = rows[0] / half_side;
+  view.y_row = rows[1] / half_side;
+  view.z_row = rows[2] / -range;
+  view.z_offset = fit.depth_max / range;
+  view.w_row = vec3(0.0f);
+  view.w_offset = 1.0f;
+  view.tangent = 0.0f;
+  view.side_m = half_side * 2.0f;
+  view.resolution = 0u;
+  view.light = 0u;
+  view.atlas_x = 0u;
+  view.atlas_y = 0u;
+  return view;
+}
+
+// --- Boxes on views ---------------------------------------------------------------------------------------------------
+
+/// What a view sees of a box. Depth: along the view's axis, in metres from the light; ortho: 1 - z, 0 at the near side and 1
+/// at the far side of the casters.
+struct ViewFootprint {
+  FaceBox box;             // perspective: in units in which the view's pyramid is |x|, |y| <= z; ortho: clip x, y and depth
+  FaceRect rect;
+  uint perspective;
+};
+UMB_ASSERT_SIZE(ViewFootprint, 44);
+
+/// False when the view does not see the box. kind: ViewsCube, … ; face: number of the view among its light's.
+UMB_FN bool project_box_to_view(ShadowView view, uint kind, uint face, vec3 box_min, vec3 box_max, UMB_OUT(ViewFootprint) seen) {
+  seen.perspective = kind == ViewsOrtho ? 0u : 1u;
+  seen.rect.min_st = vec2(-1.0f);
+  seen.rect.max_st = vec2(1.0f);
+  if (kind == ViewsCube) {
+    if (!clip_box_to_face(face, box_min - view.origin, box_max - view.origin, seen.box)) return false;
+    seen.rect = face_rect(seen.box);
+    return true;
+  }
+  // The box around the box in the view's frame: larger than the box itself, never smaller.
+  vec3 centre = (box_min + box_max) * 0.5f - view.origin;
+  vec3 half_size = (box_max - box_min) * 0.5f;
+  vec3 depth_row = kind == ViewsOrtho ? vec3(0.0f) - view.z_row : view.w_row;
+  float depth_offset = kind == ViewsOrtho ? 1.0f - view.z_offset : 0.0f;
+  vec3 at = vec3(dot(view.x_row, centre), dot(view.y_row, centre), dot(depth_row, centre) + depth_offset);
+  vec3 extent = vec3(dot(abs(view.x_row), half_size), dot(abs(view.y_row), half_size), dot(abs(depth_row), half_size));
+  seen.box.lo = at - extent;
+  seen.box.hi = at + extent;
+  if (!all(lessThanEqual(box_min, box_max))) return false;
+  if (kind == ViewsOrtho) {
+    seen.rect.min_st = max(vec2(seen.box.lo.x, seen.box.lo.y) - CubeProjectionSlack, vec2(-1.0f));
+    seen.rect.max_st = min(vec2(seen.box.hi.x, seen.box.hi.y) + CubeProjectionSlack, vec2(1.0f));
+    return seen.rect.min_st.x <= seen.rect.max_st.x && seen.rect.min_st.y <= seen.rect.max_st.y;
+  }
+  vec3 apart = distance_to_axis_planes(seen.box.lo, seen.box.hi);
+  seen.box.lo.z = max(seen.box.lo.z, max(apart.x, apart.y));
+  if (!(seen.box.hi.z > 0.0f && seen.box.hi.z >= seen.box.lo.z)) return false;
+  seen.rect = face_rect(seen.box);
+  return true;
+}
+
+/// The tiles [x, y) of one row that a footprint touches; x >= y: none.
+UMB_FN uvec2 footprint_row(ViewFootprint seen, uint row, uint tiles) {
+  if (seen.perspective != 0u) return tile_row_span(seen.box, row, tiles);
+  return uvec2(texel_of(seen.rect.min_st.x, tiles), texel_of(seen.rect.max_st.x, tiles) + 1u);
+}
+
+UMB_NAMESPACE_END
+#endif
