@@ -90,8 +90,24 @@ struct FrameCounters {
   uint batches_drawn_low, batches_drawn_high;
   uint triangles_drawn_low, triangles_drawn_high;
   uint all_lights_used;
+  // Virtual shadow maps. Groups of indirect dispatches first; those of `fit_` are 0 once the pages fit the pool.
+  uint pair_groups[3];       // of 64 cluster/light pairs
+  uint map_groups[3];        // a workgroup a map
+  uint fit_pair_groups[3];
+  uint fit_map_groups[3];
+  uint fit_word_groups[3];   // of 64 page words
+  uint clear_groups[3];      // a workgroup per ClearUnits of the pool
+  uint maps, maps_found;     // within capacity; that there would be
+  uint page_words, page_words_found;
+  uint receiver_views, receiver_views_found;
+  uint pages_requested;      // at the resolutions asked for
+  uint pages;                // that have memory
+  uint pool_units;           // that the pages of this round need
+  uint pool_units_asked;     // that those of the first round would
+  uint fitted;               // 1: they fit
+  uint lights_shifted;       // lights that are coarser than they asked
 };
-UMB_ASSERT_SIZE(FrameCounters, 64);
+UMB_ASSERT_SIZE(FrameCounters, 184);
 
 /// Words of the used lights: bits.
 UMB_CONST uint LightIsUsed = 1u;
