@@ -13,7 +13,8 @@ namespace umbrage {
 
 struct PrepareSettings {
   uint32_t batch_triangles = 128;  ///< At most this many triangles a batch, 32…1024.
-  uint32_t batch_vertices = 256;   ///< And this many distinct vertices, 96…3072; > 256 needs 16-bit local indices.
+  uint32_t batch_vertices = 0;     ///< And this many distinct vertices, 96…3072; 0 = max(256, 2 batch_triangles), so that
+                                   ///< batches fill. Above 256 local indices have 16 bits.
 };
 
 /// Positions (mesh space, finite), triangle-list indices (< positions.size()) and submeshes as in MeshDesc. A batch never
@@ -45,7 +46,7 @@ struct PreparedMesh {
   std::span<const uint8_t> local_indices;   ///< Three a triangle, or empty when wide.
   std::span<const uint16_t> wide_indices;   ///< Likewise for batches of more than 256 vertices.
   uint64_t key = 0;                         ///< prepare_key of what it was made from.
-  PrepareSettings settings;                 ///< Likewise; wide when batch_vertices > 256.
+  PrepareSettings settings;                 ///< Likewise, never with 0; wide when batch_vertices > 256.
   uint32_t mesh_vertex_count = 0;           ///< Of that mesh; every element of vertices is below it.
   uint32_t submesh_count = 0;               ///< Of that mesh, 1 when it had none; every batch's submesh is below it.
 };

@@ -25,6 +25,13 @@ struct Mesh {
 
 Error refused(std::string what) { return {ErrorCode::invalid_argument, "prepare_mesh: " + std::move(what)}; }
 
+/// With the vertices that 0 stands for: two a triangle hold all but soups of triangles that share none.
+PrepareSettings resolved(PrepareSettings settings) {
+  if (settings.batch_vertices == 0)
+    settings.batch_vertices = std::max(scene::NarrowVertices, 2 * settings.batch_triangles);
+  return settings;
+}
+
 Result<void> check_settings(const PrepareSettings& settings) {
   const auto check = [](const char* name, uint32_t value, uint32_t least, uint32_t most) -> Result<void> {
     if (value >= least && value <= most) return {};
@@ -197,8 +204,9 @@ Submesh whole(std::span<const uint32_t> indices) { return {.index_count = static
 }  // namespace
 
 Result<std::vector<std::byte>> prepare_mesh(std::span<const Vec3> positions, std::span<const uint32_t> indices,
-                                            std::span<const Submesh> submeshes, const PrepareSettings& settings) {
+                                            std::span<const Submesh> submeshes, const PrepareSettings& wanted) {
   try {
+    const PrepareSettings settings = resolved(wanted);
     const Submesh all = whole(indices);
     const Mesh mesh{positions, indices, submeshes.empty() ? std::span(&all, 1) : submeshes};
     if (auto result = check(mesh, settings); !result) return result.error();
@@ -209,7 +217,8 @@ Result<std::vector<std::byte>> prepare_mesh(std::span<const Vec3> positions, std
 }
 
 uint64_t prepare_key(std::span<const Vec3> positions, std::span<const uint32_t> indices,
-                     std::span<const Submesh> submeshes, const PrepareSettings& settings) {
+                     std::span<const Submesh> submeshes, const PrepareSettings& wanted) {
+  const PrepareSettings settings = resolved(wanted);
   uint64_t hash = scene::hash_bytes(scene::PreparedVersion, std::as_bytes(std::span(&settings, 1)));
   hash = scene::hash_bytes(hash, std::as_bytes(positions));
   hash = scene::hash_bytes(hash, std::as_bytes(indices));

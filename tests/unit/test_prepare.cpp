@@ -81,9 +81,11 @@ void expect_right(const TriangleMesh& mesh, const PrepareSettings& settings) {
   std::sort(found.begin(), found.end());
   EXPECT_EQ(expected, found) << mesh.name;
 
+  const uint32_t most_vertices =
+      settings.batch_vertices ? settings.batch_vertices : std::max(256u, 2 * settings.batch_triangles);
   for (const PreparedBatch& batch : prepared->batches) {
     EXPECT_TRUE(batch.triangle_count >= 1 && batch.triangle_count <= settings.batch_triangles) << mesh.name;
-    EXPECT_LE(batch.vertex_count, settings.batch_vertices) << mesh.name;
+    EXPECT_LE(batch.vertex_count, most_vertices) << mesh.name;
     const auto vertices = prepared->vertices.subspan(batch.first_vertex, batch.vertex_count);
     EXPECT_EQ(std::set(vertices.begin(), vertices.end()).size(), vertices.size()) << mesh.name;
     expect_tight(mesh, batch, vertices);
@@ -99,7 +101,7 @@ void expect_right(const TriangleMesh& mesh, const PrepareSettings& settings) {
 
   EXPECT_EQ(prepared->key, key(mesh, settings));
   EXPECT_EQ(prepared->settings.batch_triangles, settings.batch_triangles);
-  EXPECT_EQ(prepared->settings.batch_vertices, settings.batch_vertices);
+  EXPECT_EQ(prepared->settings.batch_vertices, most_vertices);
   EXPECT_EQ(prepared->mesh_vertex_count, mesh.positions.size());
   EXPECT_EQ(prepared->submesh_count, std::max<size_t>(1, mesh.submeshes.size()));
   EXPECT_TRUE(prepared->local_indices.empty() || prepared->wide_indices.empty());
@@ -107,7 +109,7 @@ void expect_right(const TriangleMesh& mesh, const PrepareSettings& settings) {
 }
 
 std::vector<PrepareSettings> settings_to_try() {
-  return {{}, {32, 96}, {32, 3072}, {1024, 96}, {1024, 256}, {1024, 257}, {1024, 3072}};
+  return {{}, {32, 96}, {32, 3072}, {1024, 96}, {1024, 256}, {1024, 257}, {1024}, {1024, 3072}};
 }
 
 TEST(PrepareMesh, KeepsEveryTriangleWithinTheLimits) {
@@ -142,6 +144,24 @@ TEST(PrepareMesh, UsesWideIndicesForManyVerticesOnly) {
   EXPECT_TRUE(umbrage::open_prepared(*narrow)->wide_indices.empty());
   EXPECT_TRUE(umbrage::open_prepared(*wide)->local_indices.empty());
   EXPECT_EQ(umbrage::open_prepared(*wide)->wide_indices.size(), size_t{40} * 40 * 6);
+}
+
+// Vertices must not be what ends a batch: with as many as the setting gives by itself, large batches fill as far as with the
+// most there can be, and the default stays narrow.
+TEST(PrepareMesh, GivesLargeBatchesTheVerticesToFill) {
+  const TriangleMesh mesh = wavy_grid(90, 90);
+  for (const uint32_t triangles : {256u, 512u, 1024u}) {
+    const auto own = prepare(mesh, {triangles}), most = prepare(mesh, {triangles, 3072}),
+               few = prepare(mesh, {triangles, 96});
+    const size_t batches = umbrage::open_prepared(*own)->batches.size();
+    EXPECT_EQ(batches, umbrage::open_prepared(*most)->batches.size()) << triangles;
+    EXPECT_LT(batches, umbrage::open_prepared(*few)->batches.size()) << triangles;
+    EXPECT_TRUE(umbrage::open_prepared(*own)->local_indices.empty()) << triangles;
+  }
+  EXPECT_EQ(umbrage::open_prepared(*prepare(mesh))->settings.batch_vertices, 256u);
+  EXPECT_TRUE(umbrage::open_prepared(*prepare(mesh))->wide_indices.empty());
+  EXPECT_EQ(key(mesh), key(mesh, {128, 256}));
+  EXPECT_EQ(key(mesh, {512}), key(mesh, {512, 1024}));
 }
 
 // Diagonals of coordinates near the largest float must not overflow into ties: four corners stay apart.
@@ -206,7 +226,7 @@ TEST(PrepareMesh, RefusesWhatIsNotATriangleList) {
 TEST(PrepareMesh, RefusesSettingsOutOfRange) {
   const TriangleMesh mesh = wavy_grid(2, 2);
   for (const uint32_t triangles : {0u, 31u, 1025u, ~0u}) expect_refused(mesh, {triangles, 256}, "batch_triangles");
-  for (const uint32_t vertices : {0u, 95u, 3073u, ~0u}) expect_refused(mesh, {128, vertices}, "batch_vertices");
+  for (const uint32_t vertices : {1u, 95u, 3073u, ~0u}) expect_refused(mesh, {128, vertices}, "batch_vertices");
 }
 
 TEST(PrepareMesh, RefusesSubmeshesThatAreNotAPartition) {
