@@ -48,7 +48,8 @@ Result<std::unique_ptr<PipelineFactory>> PipelineFactory::create(const Device& d
   VkResult result = vk.vkCreateDescriptorSetLayout(device.handle(), &set, device.callbacks(), &factory->frame_set_);
   if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateDescriptorSetLayout", "frame");
 
-  const VkDescriptorSetLayoutBinding masks{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, max_masks, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+  const VkDescriptorSetLayoutBinding masks{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, max_masks,
+                                           VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   const VkDescriptorBindingFlags mask_flags = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT |
                                               VK_DESCRIPTOR_BINDING_UPDATE_AFTER_BIND_BIT |
                                               VK_DESCRIPTOR_BINDING_UPDATE_UNUSED_WHILE_PENDING_BIT;

@@ -1,7 +1,8 @@
-// Push constants of the writers.
+// Push constants of the writers, and what the page rasteriser keeps between its passes.
 #ifndef UMBRAGE_RASTER_TYPES_SHARED_H
 #define UMBRAGE_RASTER_TYPES_SHARED_H
 #include "culling/culling_types.shared.h"
+#include "raster/triangle.shared.h"
 
 UMB_NAMESPACE_BEGIN
 
@@ -10,6 +11,74 @@ struct CastPush {            // cast.vert, mask.frag
   vec2 atlas_size;           // texels; what the viewport covers
 };
 UMB_ASSERT_SIZE(CastPush, 16);
+
+/// Threads that share an item of the page rasteriser, or a queued triangle.
+UMB_CONST uint RasterThreads = 64u;
+/// Texels along the side of a tile, which a workgroup of TileThreads draws: a column of TileRows texels a thread.
+UMB_CONST uint TileTexels = 32u;
+UMB_CONST uint TileThreads = 128u;
+UMB_CONST uint TileRows = 8u;
+/// A triangle whose box holds more texels is queued for the tiles.
+UMB_CONST uint QueuedTexels = 512u;
+/// Workgroups along x of an indirect dispatch; the rest go to y.
+UMB_CONST uint MaxGroupsX = 32768u;
+
+/// A queued triangle's share of one tile: edge functions at the tile's first texel, and the next share of the same tile.
+struct TileNode {
+  uint triangle;
+  uint next;                 // or NoIndex
+  ivec3 edges;
+  vec3 fractions;
+};
+UMB_ASSERT_SIZE(TileNode, 32);
+
+/// A tile that has nodes.
+struct RasterTile {
+  uint tile;                 // whose list it is
+  uint first_texel;          // in the pool
+};
+UMB_ASSERT_SIZE(RasterTile, 8);
+
+/// Arguments of the indirect dispatches.
+struct RasterArguments {
+  uint items[6];             // groups along x, y, z: opaque, masked
+  uint triangles[3];
+  uint tiles[3];
+};
+UMB_ASSERT_SIZE(RasterArguments, 48);
+
+/// What has been appended, or would have been had there been room.
+struct RasterCounts {
+  uint triangles;
+  uint nodes;
+  uint tiles;
+};
+UMB_ASSERT_SIZE(RasterCounts, 12);
+
+struct PageRasterPush {      // plan_dispatches, rasterize_triangles, bin_triangles, draw_tiles
+  uint64_t frame;
+  uint64_t casters;
+  uint64_t instances;
+  uint64_t batches;
+  uint64_t indices;
+  uint64_t items;
+  uint64_t counts;
+  uint64_t arguments;
+  uint64_t appended;         // RasterCounts
+  uint64_t triangles;        // RasterTriangle
+  uint64_t nodes;            // TileNode
+  uint64_t heads;            // first node of each tile, or NoIndex
+  uint64_t tiles;            // RasterTile
+  uint item_capacity;        // masked items begin there
+  uint large_capacity;
+  uint node_capacity;
+  uint step;                 // plan_dispatches: PlanItems, …
+};
+UMB_ASSERT_SIZE(PageRasterPush, 120);
+
+UMB_CONST uint PlanItems = 0u;
+UMB_CONST uint PlanTriangles = 1u;
+UMB_CONST uint PlanTiles = 2u;
 
 UMB_NAMESPACE_END
 #endif

@@ -144,9 +144,13 @@ Gpu::Gpu() {
   std::array<VkDescriptorSet, 2> made{};
   check(vkAllocateDescriptorSets(desc_.device, &allocation, made.data()), "vkAllocateDescriptorSets");
   frame_set_ = made[0], mask_set_ = made[1];
+  VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
+  check(vkCreateSampler(desc_.device, &sampler, nullptr, &sampler_), "vkCreateSampler");
 }
 
 Gpu::~Gpu() {
+  vkDestroySampler(desc_.device, sampler_, nullptr);
   vkDestroyDescriptorPool(desc_.device, sets_, nullptr);
   vkDestroyCommandPool(desc_.device, commands_, nullptr);
   factory_.reset();
@@ -225,6 +229,17 @@ void Gpu::read(const gpu::Buffer& from, VkDeviceSize offset, void* data, size_t 
     barrier(commands);
   });
   std::memcpy(data, target.mapped(), bytes);
+}
+
+void Gpu::set_mask(uint32_t slot, const Image& image) {
+  const VkDescriptorImageInfo info{sampler_, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+  write.dstSet = mask_set_;
+  write.dstArrayElement = slot;
+  write.descriptorCount = 1;
+  write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  write.pImageInfo = &info;
+  vkUpdateDescriptorSets(desc_.device, 1, &write, 0, nullptr);
 }
 
 gpu::Recorder Gpu::recorder(VkCommandBuffer commands, gpu::HazardLog* log) {

@@ -108,6 +108,8 @@ class Gpu {
   const gpu::PipelineFactory& factory() const { return *factory_; }
   /// A recorder as the library makes them, with descriptor sets that nothing reads.
   gpu::Recorder recorder(VkCommandBuffer, gpu::HazardLog* = nullptr);
+  /// Makes an image mask `slot` of recorders from now on.
+  void set_mask(uint32_t slot, const Image&);
   /// What the validation layers have said since the last call.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
@@ -119,6 +121,7 @@ class Gpu {
   VkCommandPool commands_ = VK_NULL_HANDLE;
   VkDescriptorPool sets_ = VK_NULL_HANDLE;
   VkDescriptorSet frame_set_ = VK_NULL_HANDLE, mask_set_ = VK_NULL_HANDLE;
+  VkSampler sampler_ = VK_NULL_HANDLE;
   std::unique_ptr<gpu::Device> device_;
   std::unique_ptr<gpu::Memory> memory_;
   std::unique_ptr<gpu::PipelineFactory> factory_;

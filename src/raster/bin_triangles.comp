@@ -1,0 +1,59 @@
+#version 460
+// Queued triangles → lists of the tiles they touch: a workgroup a triangle, a thread a tile. A share that finds the lists full
+// is drawn here.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_nonuniform_qualifier : require
+layout(constant_id = 0) const bool masked = false;
+#include "raster/raster_types.shared.h"
+layout(local_size_x = RasterThreads) in;
+layout(push_constant, scalar) uniform PushBlock { PageRasterPush push; };
+layout(set = 1, binding = 0) uniform sampler2D masks[];
+#include "raster/draw_block.glsl"
+
+/// True where an edge leaves the whole tile outside.
+bool misses(ivec3 edges, ivec3 step_x, ivec3 step_y) {
+  ivec3 most = edges + (max(step_x, ivec3(0)) + max(step_y, ivec3(0))) * int(TileTexels - 1u);
+  return any(lessThan(most, ivec3(0)));
+}
+
+void link(uint triangle, uint tile, uint first_texel, ivec3 edges, vec3 fractions, uint node) {
+  uint next = atomicExchange(Uints(push.heads).v[tile], node);
+  TileNodes(push.nodes).v[node] = TileNode(triangle, next, edges, fractions);
+  if (next == NoIndex) RasterTiles(push.tiles).v[atomicAdd(Appended(push.appended).v.tiles, 1u)] = RasterTile(tile, first_texel);
+}
+
+void main() {
+  Appended appended = Appended(push.appended);
+  uint index = group_index();
+  if (index >= min(appended.v.triangles, push.large_capacity)) return;
+  Frame frame = Frame(push.frame);
+  RasterTriangle t = RasterTriangles(push.triangles).v[index];
+  MapRecord map = Maps(frame.v.maps).v[t.map];
+  ivec2 first, last;
+  texel_box(t, map.resolution, first, last);
+  ivec2 first_tile = first / int(TileTexels);
+  ivec2 tiles = last / int(TileTexels) - first_tile + 1;
+  ivec3 step_x = steps_x(t);
+  ivec3 step_y = steps_y(t);
+  for (int i = int(gl_LocalInvocationIndex); i < tiles.x * tiles.y; i += int(RasterThreads)) {
+    ivec2 corner = (first_tile + ivec2(i % tiles.x, i / tiles.x)) * int(TileTexels);
+    ivec3 edges;
+    vec3 fractions;
+    start_edges(t, uvec2(corner), edges, fractions);
+    if (misses(edges, step_x, step_y)) continue;
+    uint origin = page_origin(frame, map, t.view, uvec2(corner));
+    if (origin == NoTexel) continue;
+    uint node = atomicAdd(appended.v.nodes, 1u);
+    if (node < push.node_capacity) {
+      uvec2 in_page = uvec2(corner) % PageSide;
+      uvec2 tile = in_page / TileTexels;
+      // Pages of full side begin at least that far apart.
+      uint number = origin / (PageSide * PageSide) * (PageSide / TileTexels * PageSide / TileTexels) + tile.y * (PageSide / TileTexels) + tile.x;
+      link(index, number, origin + in_page.y * PageSide + in_page.x, edges, fractions, node);
+    } else {
+      ivec2 lo = max(corner, first);
+      edges += step_x * (lo.x - corner.x) + step_y * (lo.y - corner.y);
+      draw_block(Uints(frame.v.pool), t, PageSide, origin, lo, min(corner + int(TileTexels) - 1, last), edges, fractions);
+    }
+  }
+}

@@ -1,0 +1,28 @@
+#version 460
+// Turns counts into the arguments of the next indirect dispatch.
+#extension GL_GOOGLE_include_directive : require
+#include "raster/page_raster_buffers.glsl"
+layout(local_size_x = 1) in;
+layout(push_constant, scalar) uniform PushBlock { PageRasterPush push; };
+
+uvec2 groups_of(uint count) {
+  return uvec2(min(count, MaxGroupsX), (count + MaxGroupsX - 1u) / MaxGroupsX);
+}
+
+void main() {
+  Arguments arguments = Arguments(push.arguments);
+  Appended appended = Appended(push.appended);
+  if (push.step == PlanItems) {
+    DrawCounts counts = ItemCounts(push.counts).v;
+    uvec2 opaque = groups_of(min(counts.opaque, push.item_capacity));
+    uvec2 masked = groups_of(min(counts.masked, push.item_capacity));
+    arguments.v.items = uint[](opaque.x, opaque.y, 1u, masked.x, masked.y, 1u);
+    appended.v = RasterCounts(0u, 0u, 0u);
+  } else if (push.step == PlanTriangles) {
+    uvec2 groups = groups_of(min(appended.v.triangles, push.large_capacity));
+    arguments.v.triangles = uint[](groups.x, groups.y, 1u);
+  } else {
+    uvec2 groups = groups_of(appended.v.tiles);
+    arguments.v.tiles = uint[](groups.x, groups.y, 1u);
+  }
+}
