@@ -130,7 +130,7 @@ Result<Pipeline> PipelineFactory::depth(const DepthShaders& shaders, const char*
   stages[0] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_VERTEX_BIT, *vertex, "main", &specialization.info};
   stages[1] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_FRAGMENT_BIT, fragment, "main", &specialization.info};
   const VkVertexInputBindingDescription binding{0, shaders.instance_stride_bytes, VK_VERTEX_INPUT_RATE_INSTANCE};
-  std::array<VkVertexInputAttributeDescription, 8> attributes{};
+  std::array<VkVertexInputAttributeDescription, 12> attributes{};
   for (uint32_t i = 0; i < shaders.instance_attributes.size(); ++i) attributes[i] = {i, 0, shaders.instance_attributes[i], 16 * i};
   VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   vertices.vertexBindingDescriptionCount = shaders.instance_attributes.empty() ? 0 : 1;
@@ -147,14 +147,14 @@ Result<Pipeline> PipelineFactory::depth(const DepthShaders& shaders, const char*
   VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-  depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
+  depth.depthTestEnable = depth.depthWriteEnable = shaders.has_attachment;
   depth.depthCompareOp = VK_COMPARE_OP_GREATER;
   const std::array<VkDynamicState, 2> dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   VkPipelineDynamicStateCreateInfo dynamics{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
   dynamics.dynamicStateCount = static_cast<uint32_t>(dynamic.size());
   dynamics.pDynamicStates = dynamic.data();
   VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-  rendering.depthAttachmentFormat = VK_FORMAT_D32_SFLOAT;
+  rendering.depthAttachmentFormat = shaders.has_attachment ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED;
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
   info.stageCount = fragment ? 2 : 1;
   info.pStages = stages.data();

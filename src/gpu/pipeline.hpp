@@ -38,6 +38,7 @@ struct DepthShaders {
   /// Instance attributes of binding 0, at locations 0, 1, …, 16 bytes each.
   std::span<const VkFormat> instance_attributes;
   uint32_t instance_stride_bytes = 0;
+  bool has_attachment = true;          ///< False: the fragment shader writes where it likes, and there is no depth test.
 };
 
 /// Owns descriptor set layouts and the pipeline layout. Set 0: per-frame images; set 1: masks.

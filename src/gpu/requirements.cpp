@@ -34,6 +34,7 @@ void list_features(Table& table, const Supported& has) {
   UMB_NEED(base.features., features.features., shaderInt64, "buffer addresses in shaders")
   UMB_NEED(base.features., features.features., multiDrawIndirect, "one draw for all shadow casters")
   UMB_NEED(base.features., features.features., drawIndirectFirstInstance, "which caster a draw belongs to")
+  UMB_NEED(base.features., features.features., fragmentStoresAndAtomics, "shadow texels written by fragment shaders")
   UMB_NEED(base.features., features.features., shaderClipDistance, "views side by side in one depth image")
   UMB_NEED(v12., features_12., bufferDeviceAddress, "buffers by address")
   UMB_NEED(v12., features_12., scalarBlockLayout, "structs shared by C++ and shaders")

@@ -80,5 +80,49 @@ UMB_CONST uint PlanItems = 0u;
 UMB_CONST uint PlanTriangles = 1u;
 UMB_CONST uint PlanTiles = 2u;
 
+// --- By fragments -----------------------------------------------------------------------------------------------------
+
+/// Items whose draws are listed at once.
+UMB_CONST uint DrawWindow = 16384u;
+
+/// A batch drawn into one view of a map, as instance attributes of cast_page.vert.
+struct PageInstance {
+  vec4 row0, row1, row2;     // relative to the view's origin from mesh space
+  vec4 x_row;                // of the view; resolution
+  vec4 y_row;                // of the view; unused
+  vec4 z_row, w_row;         // of the view, with their offsets
+  uint64_t positions;
+  uint position_stride;      // in floats
+  uint batch;
+  uint64_t uvs;
+  uint uv_stride;
+  uint first_word;           // of the view's page bits
+};
+UMB_ASSERT_SIZE(PageInstance, 144);
+
+struct ListDrawsPush {       // list_page_draws
+  uint64_t frame;
+  uint64_t casters;
+  uint64_t instances;
+  uint64_t batches;
+  uint64_t items;
+  uint64_t counts;
+  uint64_t drawn;            // PageInstance, six for each item
+  uint64_t commands;
+  uint64_t draw_count;
+  uint masked;
+  uint first;                // item of the window
+  uint window;               // items
+  uint item_capacity;
+};
+UMB_ASSERT_SIZE(ListDrawsPush, 88);
+
+struct CastPagePush {        // cast_page.vert, write_page.frag
+  uint64_t frame;
+  uint64_t batches;
+  vec2 viewport_size;        // texels
+};
+UMB_ASSERT_SIZE(CastPagePush, 24);
+
 UMB_NAMESPACE_END
 #endif

@@ -125,6 +125,10 @@ raster::PageWriterInputs PageRig::inputs() const {
   return {scene_, frame_, views_, map_buffer_, page_bits_, page_first_, pool_, item_buffer_, counts_, capacity_};
 }
 
+uint32_t PageRig::max_resolution() const {
+  return std::max_element(maps_.begin(), maps_.end(), [](const PageMap& a, const PageMap& b) { return a.resolution < b.resolution; })->resolution;
+}
+
 std::vector<uint32_t> PageRig::draw(const std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>& write, gpu::HazardLog* log) {
   gpu_.run([&](VkCommandBuffer commands) {
     gpu::Recorder recorder = gpu_.recorder(commands, log);

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "gpu.hpp"
+#include "raster/page_fragments.hpp"
 #include "raster/page_raster.hpp"
 #include "reference/page_raster.hpp"
 #include "test_scene.hpp"
@@ -29,6 +30,7 @@ class PageRig {
   /// The pool after one writer has run on clear pages.
   std::vector<uint32_t> draw(const std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>& write, gpu::HazardLog* = nullptr);
   raster::PageWriterInputs inputs() const;
+  uint32_t max_resolution() const;
   VkDeviceSize pool_bytes() const { return pool_.size(); }
 
   struct Page {
