@@ -22,6 +22,13 @@ int report(std::string message, ExitStatus status) {
   return status;
 }
 
+std::string command_names(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
 int run(int argc, char** argv, app::Outputs& outputs) {
   CLI::App program("Real-time shadows from hundreds to thousands of lights", "umbrage");
   program.require_subcommand(1);
@@ -40,6 +47,9 @@ int run(int argc, char** argv, app::Outputs& outputs) {
   } catch (const CLI::ParseError& stop) {
     if (stop.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(stop);
     const auto begun = program.get_subcommands();
+    if (begun.empty() && argc > 1 && argv[1][0] != '-')
+      return report("there is no command \"" + std::string(argv[1]) + "\"; choose from " + command_names(program),
+                    kWrongUsage);
     const std::string command = begun.empty() ? "" : begun.front()->get_name() + " ";
     return report(std::string(stop.what()) + " (see umbrage " + command + "--help)", kWrongUsage);
   }

@@ -122,6 +122,7 @@ void add_compare_options(CLI::App& command, CompareOptions& options) {
 }
 
 Result<void> run_compare(const CompareOptions& options, Outputs& outputs) {
+  if (const auto checked = check_run_outputs(options.shared, options.report); !checked) return checked.error();
   Progress progress;
   auto session = Session::open(options.shared, progress);
   if (!session) return session.error();

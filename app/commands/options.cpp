@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "scenes/builtin.hpp"
+
 namespace app {
 namespace {
 
@@ -57,6 +59,21 @@ void print_shows() {
   for (const ShowInfo& info : shows()) std::cout << info.name << "  " << info.summary << '\n';
 }
 
+void print_presets() {
+  for (const umbrage::Preset& preset : umbrage::presets()) std::cout << preset.name << "  " << preset.summary << '\n';
+}
+
+void print_settings() {
+  for (const umbrage::SettingInfo& info : umbrage::setting_infos())
+    std::cout << info.key << "=" << info.values << "  " << info.summary << '\n';
+}
+
+std::string scene_summary() {
+  std::string names;
+  for (const BuiltinInfo& info : builtin_scenes()) names.append(names.empty() ? "" : ", ").append(info.name);
+  return "A .gltf or .glb file, or builtin:NAME (" + names + ")";
+}
+
 void add_camera_options(CLI::App& command, SharedOptions& options) {
   CameraOptions& camera = options.camera;
   auto* name = command
@@ -96,15 +113,23 @@ void add_settings_options(CLI::App& command, SharedOptions& options) {
   add_read(
       command, "--preset", "NAME",
       [&](const std::string& name) -> umbrage::Result<void> {
+        if (name == "list") {
+          print_presets();
+          throw CLI::Success();
+        }
         const auto known = umbrage::preset(name);
         if (!known) return known.error();
         settings.preset = name;
         return {};
       },
-      "A row of the preset table; default");
+      "A row of the preset table; default. list names them");
   command.add_option("--settings", settings.file, "A settings file, applied to the preset")->type_name("FILE.json");
   const auto take_assignment = [&](const std::vector<std::string>& assignments) {
     for (const std::string& assignment : assignments) {
+      if (assignment == "list") {
+        print_settings();
+        throw CLI::Success();
+      }
       umbrage::Settings scratch;
       const auto set = apply_assignment(assignment, scratch);
       if (!set) throw CLI::ValidationError("--set", set.error().message);
@@ -112,7 +137,8 @@ void add_settings_options(CLI::App& command, SharedOptions& options) {
     settings.assignments = assignments;
   };
   command
-      .add_option_function<std::vector<std::string>>("--set", take_assignment, "One field of the settings; repeatable")
+      .add_option_function<std::vector<std::string>>("--set", take_assignment,
+                                                     "One field of the settings; repeatable. list names them")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -149,7 +175,7 @@ void add_output_options(CLI::App& command, SharedOptions& options) {
 }  // namespace
 
 void add_shared_options(CLI::App& command, SharedOptions& options) {
-  command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME")->required();
+  command.add_option("SCENE", options.scene, scene_summary())->required();
   add_read(command, "--size", "WxH", reader(parse_size, [&](const Extent& size) { options.size = size; }),
            "Pixels; 1280x720");
   add_camera_options(command, options);

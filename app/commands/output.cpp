@@ -167,6 +167,17 @@ umbrage::Result<void> OutputFile::commit() {
   return {};
 }
 
+umbrage::Result<void> check_target(const fs::path& target) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(target, ignored);
+  if (fs::is_directory(status)) return invalid(target.string() + ": is a folder, not a file");
+  if (target == "-" || (fs::exists(status) && !fs::is_regular_file(status))) return {};
+  fs::path folder = fs::weakly_canonical(target, ignored).parent_path();
+  if (folder.empty()) folder = ".";
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  return invalid(target.string() + ": cannot be written: " + std::strerror(errno));
+}
+
 umbrage::Result<void> write_standard_output(std::string_view text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!is_written) return invalid(std::string("standard output cannot be written: ") + std::strerror(errno));

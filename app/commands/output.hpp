@@ -57,6 +57,9 @@ class OutputFile {
   std::filesystem::path target_, temporary_;  // temporary_ is empty when the target is written in place.
 };
 
+/// What would make open() fail, told before long work: a missing folder, or one that cannot be written. "-" is fine.
+umbrage::Result<void> check_target(const std::filesystem::path& target);
+
 umbrage::Result<void> write_standard_output(std::string_view text);
 
 /// A whole text file. "-" is standard output.

@@ -1,6 +1,8 @@
 // umbrage render.
 #include "commands/render.hpp"
 
+#include <filesystem>
+
 #include "commands/image_file.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_outputs.hpp"
@@ -25,6 +27,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   const auto take_image = [&options](const std::string& name) {
     if (count_number_places(name) > 1)
       throw CLI::ValidationError("-o", "\"" + name + "\" has more than one place for the frame's number");
+    const std::string extension = std::filesystem::path(name).extension().string();
+    if (!extension.empty() && extension != ".png" && extension != ".PNG")
+      throw CLI::ValidationError("-o", "\"" + name + "\": pictures are PNG files: end the name in .png");
     options.image = name;
   };
   command
@@ -35,6 +40,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
 }
 
 Result<void> run_render(const RenderOptions& options, Outputs& outputs) {
+  if (const auto checked = check_run_outputs(options.shared, options.image); !checked) return checked.error();
   Progress progress;
   auto session = Session::open(options.shared, progress);
   if (!session) return session.error();

@@ -6,6 +6,14 @@
 
 namespace app {
 
+umbrage::Result<void> check_run_outputs(const SharedOptions& options, const std::filesystem::path& output) {
+  for (const std::filesystem::path& target : {output, options.trace_file, options.stats_file}) {
+    if (target.empty()) continue;
+    if (const auto checked = check_target(target); !checked) return checked.error();
+  }
+  return {};
+}
+
 umbrage::Result<void> write_run_outputs(Session& session, Outputs& outputs, Progress& progress) {
   const SharedOptions& options = session.options();
   if (!options.dump_folder.empty()) {

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "import/gltf_accessors.hpp"
 #include "import/gltf_animations.hpp"
@@ -41,6 +42,9 @@ Scene import_scene(const std::filesystem::path& file) {
 umbrage::Result<Scene> import_gltf(const std::filesystem::path& file) {
   using umbrage::Error;
   using umbrage::ErrorCode;
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown) && !unknown)
+    return Error{ErrorCode::invalid_argument, "there is no file " + file.string()};
   const std::string name = file.filename().string() + ": ";
   try {
     return import_scene(file);

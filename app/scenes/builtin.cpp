@@ -36,9 +36,9 @@ umbrage::Result<Scene> builtin_scene(std::string_view name) {
     scene.name = name;
     return scene;
   }
-  std::string message = "there is no built-in scene '";
-  message.append(name).append("'; choose one of");
-  for (const BuiltinInfo& info : infos) message.append(" ").append(info.name);
+  std::string message = "there is no built-in scene \"";
+  message.append(name).append("\"; choose from ");
+  for (const BuiltinInfo& info : infos) message.append(&info == &infos.front() ? "" : ", ").append(info.name);
   return umbrage::Error{umbrage::ErrorCode::invalid_argument, message};
 }
 

@@ -57,9 +57,18 @@ TEST(Usage, ShowListNamesTheDebugPicturesWithoutAScene) {
     EXPECT_TRUE(std::regex_search(outcome.out, std::regex("(^|\n)" + std::string(name) + " "))) << outcome.out;
 }
 
+TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
+  const Outcome presets = run_program({"render", "--preset", "list"});
+  EXPECT_EQ(presets.status, 0) << presets.err;
+  EXPECT_NE(presets.out.find("fixed-cubes  "), std::string::npos) << presets.out;
+  const Outcome settings = run_program({"compare", "--set", "list"});
+  EXPECT_EQ(settings.status, 0) << settings.err;
+  EXPECT_NE(settings.out.find("\nwriter=traditional|multi_draw  "), std::string::npos) << settings.out;
+}
+
 TEST(Usage, WrongCommandsExitWith2) {
   expect_error({}, 2, "--help");
-  expect_error({"view", "builtin:houses"}, 2, "");
+  expect_error({"view", "builtin:houses"}, 2, "there is no command \"view\"; choose from render, compare, info");
   expect_error({"--bad"}, 2, "");
   expect_error({"render"}, 2, "SCENE is required");
   expect_error({"render", "a.gltf"}, 2, "--output is required");
@@ -113,6 +122,7 @@ TEST(Usage, OptionsThatNeedOrExcludeEachOther) {
     expect_error(arguments, 2, wrong[0]);
   }
   expect_error({"render", "a.gltf", "-o", "%d-%04d.png"}, 2, "more than one place");
+  expect_error({"render", "a.gltf", "-o", "a.jpg"}, 2, "end the name in .png");
 }
 
 TEST(Usage, MissingOrBrokenInputExitsWith1AndNamesIt) {
@@ -137,6 +147,16 @@ TEST(Usage, MissingOrBrokenInputExitsWith1AndNamesIt) {
   expect_error(render(room, {"--settings", folder.write("t.json", R"({"speed": 1})")}), 1, "t.json: speed");
   expect_error(render(room, {"--eye", "1,1,1", "--target", "1,1,1"}), 1, "same point");
   EXPECT_FALSE(std::filesystem::exists(image));
+}
+
+TEST(Usage, PlacesThatCannotBeWrittenAreToldBeforeTheSceneIsRead) {
+  const TemporaryFolder folder;
+  const std::string scene = "no/such.gltf", image = folder.file("a.png"), missing = folder.file("missing/s.json");
+  expect_error({"render", scene, "-o", folder.file("missing/a.png")}, 1, "missing/a.png: cannot be written");
+  expect_error({"render", scene, "-o", image, "--stats", missing}, 1, "missing/s.json: cannot be written");
+  expect_error({"render", scene, "-o", image, "--trace", missing}, 1, "missing/s.json: cannot be written");
+  expect_error({"compare", scene, "-o", missing}, 1, "missing/s.json: cannot be written");
+  expect_error({"render", scene, "-o", folder.file("")}, 1, "is a folder");
 }
 
 TEST(Usage, AMessageStaysOneLineWhateverTheFileHolds) {
