@@ -14,6 +14,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/umbrageConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/umbrageConfig.cmake ${PROJECT_BINARY_DIR}/umbrageConfigVersion.cmake
         DESTINATION ${package_dir})
 
+# Relative to itself, so that a moved tree, or one installed with another --prefix, is still found.
+file(RELATIVE_PATH umbrage_prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/umbrage.pc.in ${PROJECT_BINARY_DIR}/umbrage.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/umbrage.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
