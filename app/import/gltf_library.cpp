@@ -88,6 +88,9 @@ Model parse_model(const Document& document) {
   try {
     checked = checked_copy(json::parse(document.json));
   } catch (const json::exception& fault) {
+    const size_t first = document.json.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || document.json[first] != '{')
+      refuse("JSON: there is none, so the file is neither .gltf nor .glb");
     const std::string_view text = fault.what();  // "[json.exception…] parse error at line 1, …"
     refuse("JSON: ", text.substr(std::min(text.find("] ") + 2, text.size()), 160));
   }

@@ -22,7 +22,8 @@ TEST(Nodes, Versions) {
   EXPECT_REFUSED(import_text(R"({"asset": {"version": "1.0"}})"), "glTF 1.0 is not read");
   EXPECT_REFUSED(import_text(R"({"asset": {"version": "2.1", "minVersion": "2.1"}})"), "glTF 2.1 is not read");
   EXPECT_REFUSED(import_text("{}"), "asset: is missing");
-  EXPECT_REFUSED(import_text("not JSON"), "JSON: ");
+  EXPECT_REFUSED(import_text("not JSON"), "JSON: there is none");
+  EXPECT_REFUSED(import_text("{]"), "JSON: parse error");
   EXPECT_REFUSED(import_text(""), "JSON: ");
 }
 
