@@ -25,11 +25,13 @@ UMB_FN float normal_offset(float texel_m, vec3 relative, vec3 normal) {
   return clamp(UmbrageNormalOffset * texel_m, 0.0f, max(-0.5f * dot(normal, relative), 0.0f));
 }
 
-/// 1 when nothing nearer than the plane is stored along a direction whose axis depth is 1.
-UMB_FN float tap_perspective(Frame frame, Map map, uint view, uvec2 texel, vec3 normal, vec3 relative, vec3 direction) {
+/// Adds (visibility, weight) of a tap along a direction whose axis depth is 1: visible when nothing nearer than the plane is
+/// stored. Where a grazing plane cuts the tap's way to less than half of the receiver's, the tap counts for less.
+UMB_FN void add_tap(Frame frame, Map map, uint view, uvec2 texel, vec3 normal, vec3 relative, vec3 direction, float weight, inout vec2 sum) {
   float depth = receiver_plane_depth(normal, relative, direction);
   float key = min(map.near_m / (depth * (1.0f - 4e-6f)), 1.0f);
-  return stored_depth(frame, view, texel) <= key ? 1.0f : 0.0f;
+  weight *= clamp(2.0f * depth * dot(direction, direction) / dot(relative, direction), 1e-6f, 1.0f);
+  sum += weight * vec2(stored_depth(frame, view, texel) <= key ? 1.0f : 0.0f, 1.0f);
 }
 
 UMB_FN float visibility_cube(Frame frame, Map map, vec3 relative, vec3 normal) {
@@ -39,7 +41,7 @@ UMB_FN float visibility_cube(Frame frame, Map map, vec3 relative, vec3 normal) {
   vec2 texels = (place.xy / place.z * 0.5f + 0.5f) * float(map.resolution);
   vec2 base = floor(texels);
   vec2 fraction = texels - base;
-  float sum = 0.0f;
+  vec2 sum = vec2(0.0f);
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       vec2 st = (base + vec2(x, y) + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
@@ -50,10 +52,10 @@ UMB_FN float visibility_cube(Frame frame, Map map, vec3 relative, vec3 normal) {
         tap.t = texel_centre(texel.y, map.resolution);
       }
       float weight = (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
-      sum += weight * tap_perspective(frame, map, map.first_view + tap.face, texel, normal, relative, face_direction(tap.face, tap.s, tap.t));
+      add_tap(frame, map, map.first_view + tap.face, texel, normal, relative, face_direction(tap.face, tap.s, tap.t), weight, sum);
     }
   }
-  return sum * 0.25f;
+  return sum.x / sum.y;
 }
 
 UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal) {
@@ -64,16 +66,16 @@ UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal) {
   relative += normal * normal_offset(texel_size_m(depth, view.tangent, map.resolution), relative, normal);
   vec2 base = floor(texels);
   vec2 fraction = texels - base;
-  float sum = 0.0f;
+  vec2 sum = vec2(0.0f);
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
       vec2 st = ((texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f) * (view.tangent * view.tangent);
       float weight = (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
-      sum += weight * tap_perspective(frame, map, map.first_view, uvec2(texel), normal, relative, view.w_row + view.x_row * st.x + view.y_row * st.y);
+      add_tap(frame, map, map.first_view, uvec2(texel), normal, relative, view.w_row + view.x_row * st.x + view.y_row * st.y, weight, sum);
     }
   }
-  return sum * 0.25f;
+  return sum.x / sum.y;
 }
 
 UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 normal) {

@@ -172,6 +172,39 @@ TEST_F(Visibility, OfFlatReceiversIsFullAtAnySlope) {
   }
 }
 
+/// A light in the plane of a wall's face, but for so little, and a block that stands on the wall between it and most of the
+/// face: taps behind the face hardly leave the light and see nothing, so that only those before it may answer.
+TEST_F(Visibility, OfAPlaneThatHoldsTheLightIsThatInFrontOfIt) {
+  TestScene scene;
+  scene.meshes = {plane_mesh(4)};
+  std::vector<Sample> samples;
+  const std::array<float, 4> heights_m{1e-6f, 1e-4f, 1e-3f, 1e-2f};   // of the light above the face
+  for (uint32_t index = 0; index < 2 * heights_m.size(); ++index) {
+    const uint32_t kind = index % 2, mask = 1u << index;
+    std::mt19937 engine(index);
+    const glm::mat3 turn = index < 2 ? glm::mat3(1) : random_turn(engine);
+    // The wall's face is y = 0; the block is the square x = 2, -1 <= y, z <= 1.
+    const glm::mat3 stand(glm::vec3(0, 1, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1));
+    scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(8), glm::vec3(0)), .light_mask = mask});
+    scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(turn * stand, turn * glm::vec3(2, 0, 0)), .light_mask = mask});
+    LightDesc light = light_of(kind, turn, turn * glm::vec3(0, heights_m[index / 2], 0), index);
+    light.direction = to_vec3(turn * glm::vec3(1, 0, 0));
+    light.light_mask = mask;
+    scene.lights.push_back(light);
+    std::uniform_real_distribution<float> far(4, 7), side(-0.25f, 0.25f);
+    for (uint32_t i = 0; i < 1000; ++i) {
+      const float x = far(engine);
+      samples.push_back({turn * glm::vec3(x, 0, x * side(engine)), turn * glm::vec3(0, 1, 0), index});
+    }
+  }
+  for (const uint32_t resolution : {64u, 256u}) {
+    const std::vector<float> visibility = visibility_of(gpu(), scene, resolution, samples);
+    uint32_t wrong = 0;
+    for (const float v : visibility) wrong += v >= 0.5f;
+    EXPECT_LE(wrong, samples.size() / 100) << resolution << " texels, of " << samples.size();
+  }
+}
+
 /// Every triangle of a convex body that faces the light is lit.
 TEST_F(Visibility, OfAFineSphereIsFullWhereItFacesTheLight) {
   const TestMesh sphere = sphere_mesh(96, 160);
