@@ -43,19 +43,35 @@ Result<void> PrefixSum::reserve(const Device& device, Memory& memory, uint32_t c
 }
 
 void PrefixSum::record(Recorder& recorder, const Buffer& values, uint32_t count, const Buffer& total, VkDeviceSize total_offset) {
-  const uint32_t blocks = blocks_of(count);
-  shared::ScanPush push{.count = count, .blocks = blocks};
+  record(recorder, values, nullptr, count, total, total_offset);
+}
+
+void PrefixSum::record(Recorder& recorder, const Buffer& values, const DeviceCount& counted, uint32_t capacity, const Buffer& total,
+                       VkDeviceSize total_offset) {
+  record(recorder, values, &counted, capacity, total, total_offset);
+}
+
+void PrefixSum::record(Recorder& recorder, const Buffer& values, const DeviceCount* counted, uint32_t capacity, const Buffer& total,
+                       VkDeviceSize total_offset) {
+  const uint32_t blocks = blocks_of(capacity);
+  shared::ScanPush push{.count = capacity};
+  const auto read_count = [&](Pass& pass) {
+    if (counted) push.counted = pass.read(counted->buffer) + counted->offset, push.scale = counted->scale;
+  };
   {
     Pass pass = recorder.pass("scan: sum");
+    read_count(pass);
     push.values = pass.read(values), push.sums = pass.write(sums_);
     pass.dispatch(sum_, push, blocks);
   }
   {
     Pass pass = recorder.pass("scan: blocks");
+    read_count(pass);
     push.sums = pass.write(sums_), push.total = pass.write(total) + total_offset;
     pass.dispatch(blocks_, push, 1);
   }
   Pass pass = recorder.pass("scan: items");
+  read_count(pass);
   push.sums = pass.read(sums_), push.values = pass.write(values);
   pass.dispatch(items_, push, blocks);
 }

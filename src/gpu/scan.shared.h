@@ -13,10 +13,11 @@ struct ScanPush {
   uint64_t values;   // counts, turned into exclusive prefix sums
   uint64_t sums;     // one a block
   uint64_t total;    // where the sum of everything goes
-  uint count;
-  uint blocks;
+  uint64_t counted;  // 0, or the address of a word: only the first word × scale values count
+  uint scale;
+  uint count;        // at most
 };
-UMB_ASSERT_SIZE(ScanPush, 32);
+UMB_ASSERT_SIZE(ScanPush, 40);
 
 UMB_NAMESPACE_END
 #endif

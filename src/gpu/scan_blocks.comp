@@ -1,18 +1,17 @@
 #version 460
 // Prefix sum, step 2: where each block begins, and the total; by one workgroup.
 #extension GL_GOOGLE_include_directive : require
-#include "gpu/buffers.glsl"
-#include "gpu/scan.shared.h"
+#include "gpu/scan.glsl"
 layout(local_size_x = ScanThreads) in;
-layout(push_constant, scalar) uniform PushBlock { ScanPush push; };
 
 shared uint sums[ScanThreads];
 
 void main() {
   uint thread = gl_LocalInvocationIndex;
-  uint share = (push.blocks + ScanThreads - 1u) / ScanThreads;
-  uint begin = min(thread * share, push.blocks);
-  uint end = min(begin + share, push.blocks);
+  uint blocks = (scan_count() + ScanBlock - 1u) / ScanBlock;
+  uint share = (blocks + ScanThreads - 1u) / ScanThreads;
+  uint begin = min(thread * share, blocks);
+  uint end = min(begin + share, blocks);
   uint sum = 0u;
   for (uint i = begin; i < end; ++i) sum += Uints(push.sums).v[i];
   sums[thread] = sum;

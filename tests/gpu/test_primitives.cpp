@@ -47,6 +47,30 @@ TEST_F(PrefixSums, EqualTheCpuAtEverySize) {
   }
 }
 
+TEST_F(PrefixSums, OfACountThatOnlyTheDeviceKnows) {
+  gpu::PrefixSum sum = take(gpu::PrefixSum::create(gpu().factory()));
+  std::vector<gpu::Buffer> retired;
+  constexpr uint32_t kCapacity = 300000;
+  take(sum.reserve(gpu().device(), gpu().memory(), kCapacity, retired));
+  for (const uint32_t scale : {1u, 2u, 3u}) {
+    for (const uint32_t counted : {0u, 1u, 15u, 16u, 1024u, 2047u, 2048u, 2049u, 70000u, 100000u, 299999u, 300000u, 1u << 29}) {
+      const std::vector<uint32_t> counts = random_counts(kCapacity, 1000, counted + scale);
+      const gpu::Buffer values = gpu().upload(counts);
+      const gpu::Buffer words = gpu().upload(std::vector<uint32_t>{5, counted, 77, 99});   // the count and the total in one buffer
+      gpu().run([&](VkCommandBuffer commands) {
+        gpu::Recorder recorder = gpu().recorder(commands);
+        sum.record(recorder, values, {words, sizeof(uint32_t), scale}, kCapacity, words, 2 * sizeof(uint32_t));
+      });
+      const auto end = counts.begin() + std::min(counted * scale, kCapacity);
+      std::vector<uint32_t> expected = counts;
+      std::exclusive_scan(counts.begin(), end, expected.begin(), 0u);
+      EXPECT_TRUE(gpu().download<uint32_t>(values, kCapacity) == expected) << counted << " times " << scale;
+      const std::vector<uint32_t> totals{5, counted, std::accumulate(counts.begin(), end, 0u), 99};
+      EXPECT_EQ(gpu().download<uint32_t>(words, 4), totals) << counted << " times " << scale;
+    }
+  }
+}
+
 TEST_F(PrefixSums, WrapAsUnsignedNumbersDo) {
   gpu::PrefixSum sum = take(gpu::PrefixSum::create(gpu().factory()));
   std::vector<gpu::Buffer> retired;
