@@ -1,4 +1,4 @@
-// Indexed by CasterCulling mode: whether a light's views are told apart.
+// Pipelines are indexed by whether a light's views are told apart.
 #include "culling/caster_culling.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ void CasterCulling::record_count(gpu::Recorder& recorder, const Inputs& in) {
     gpu::Pass pass = recorder.pass("count casters");
     shared::TraversePush push = inputs(pass, in);
     push.counts = pass.write(counts_);
-    pass.dispatch(count_[in.mode == umbrage::CasterCulling::view_mask], push, slots);
+    pass.dispatch(count_[in.mode != umbrage::CasterCulling::light_volume], push, slots);
   }
   scan_.record(recorder, counts_, slots * shared::TraverseThreads, in.counters, offsetof(shared::FrameCounters, caster_pairs));
 }
@@ -99,7 +99,7 @@ void CasterCulling::record_round(gpu::Recorder& recorder, const Inputs& in, uint
   push.used = pass.write(in.used_lights);
   push.window_first = round * capacity_;
   push.window_size = capacity_;
-  pass.dispatch(write_[in.mode == umbrage::CasterCulling::view_mask], push, in.scene.light_slots());
+  pass.dispatch(write_[in.mode != umbrage::CasterCulling::light_volume], push, in.scene.light_slots());
 }
 
 void CasterCulling::record_views(gpu::Recorder& recorder, const Inputs& in, uint32_t first, uint32_t count) {
@@ -110,7 +110,7 @@ void CasterCulling::record_views(gpu::Recorder& recorder, const Inputs& in, uint
   push.draw_counts = pass.write(draw_counts_);
   push.window_first = first;
   push.window_size = view_range_;
-  pass.dispatch(write_views_[in.mode == umbrage::CasterCulling::view_mask], push, count);
+  pass.dispatch(write_views_[in.mode != umbrage::CasterCulling::light_volume], push, count);
 }
 
 }  // namespace umbrage::culling

@@ -4,24 +4,23 @@
 #include "culling/traverse.glsl"
 layout(local_size_x = TraverseThreads) in;
 
-LightRecord light;
 uint light_slot;
 uint next_instance;
 uint batches_drawn = 0u;
 uint triangles_drawn = 0u;
 
-void visit(uint caster_index, Box box) {
-  uint mask = view_mask(light, box);
-  if (mask == 0u || !caster_is_lit_by(caster_index, light.light_mask)) return;
+void visit(uint leaf, uint views) {
+  uint caster_index = Uints(push.order).v[leaf];
+  if (!caster_is_lit_by(caster_index, light.light_mask)) return;
   uint first = next_instance;
-  next_instance += bitCount(mask);
+  next_instance += bitCount(views);
   uint begin = max(first, push.window_first);
   uint end = min(next_instance, push.window_first + push.window_size);
   if (begin >= end) return;
   CasterRecord caster = Casters(push.casters).v[caster_index];
   InstanceRecord instance = Instances(push.instances).v[caster.instance];
   for (uint i = begin; i < end; ++i) {
-    uint view_index = light.first_view + nth_set_bit(mask, i - first);
+    uint view_index = light.first_view + nth_set_bit(views, i - first);
     ShadowView view = Views(push.views).v[view_index];
     Drawn(push.drawn).v[i - push.window_first] = caster_instance(instance, view, view_index, caster_index, caster.batch);
   }
@@ -43,7 +42,7 @@ void main() {
   if (end > Counters(push.counters).counters.pair_limit) Uints(push.used).v[light_slot] = LightIsUsed | LightLacksCasters;
   if (end <= push.window_first || next_instance >= push.window_first + push.window_size) return;
   light = Lights(push.lights).v[light_slot];
-  walk(light, gl_LocalInvocationIndex);
+  walk(gl_LocalInvocationIndex);
   add_wide(batches_drawn, false);
   add_wide(triangles_drawn, true);
 }

@@ -4,13 +4,14 @@
 #include "culling/traverse.glsl"
 layout(local_size_x = TraverseThreads) in;
 
-LightRecord light;
 uint view_bit;
 uint batches_drawn = 0u;
 uint triangles_drawn = 0u;
 
-void visit(uint caster_index, Box box) {
-  if ((view_mask(light, box) & view_bit) == 0u || !caster_is_lit_by(caster_index, light.light_mask)) return;
+void visit(uint leaf, uint views) {
+  if ((views & view_bit) == 0u) return;
+  uint caster_index = Uints(push.order).v[leaf];
+  if (!caster_is_lit_by(caster_index, light.light_mask)) return;
   CasterRecord caster = Casters(push.casters).v[caster_index];
   BatchRecord batch = Batches(push.batches).v[caster.batch];
   uint local_view = gl_WorkGroupID.x;
@@ -33,7 +34,7 @@ void main() {
   if (slot == NoIndex) return;
   light = Lights(push.lights).v[slot];
   view_bit = 1u << (view_index - light.first_view);
-  walk(light, gl_LocalInvocationIndex);
+  walk(gl_LocalInvocationIndex);
   add_wide(batches_drawn, false);
   add_wide(triangles_drawn, true);
 }
