@@ -17,9 +17,13 @@ enum class LightAssignment : uint8_t {
   hierarchy,    ///< Through the 32-way light tree.
   brute_force,  ///< Every light against every cluster; same lists, for measurements.
 };
+/// Each drops what the one before does and more. The last three need virtual shadow maps; with fixed cubes they are view_mask.
 enum class CasterCulling : uint8_t {
-  light_volume,  ///< Batches whose box meets the light's volume go to all of its views.
-  view_mask,     ///< And of its views only to those whose frustum the box meets (CFM, O6).
+  light_volume,          ///< Batches whose box meets the light's volume go to all of its views.
+  view_mask,             ///< Only to views whose frustum the box meets and that have receivers (CFM, O6).
+  projection_map,        ///< And only where box and receivers share a tile of the view's 32×32 projection map (PMC, O7).
+  projection_map_depth,  ///< And only if the view's farthest receiver lies behind the nearest point of the box (PMCD, O7).
+  receiver_grid,         ///< The same tile by tile, on a grid of farthest receivers (O22).
 };
 enum class Writer : uint8_t {
   traditional,  ///< One render pass per view; the batches are the GPU's, the passes are the CPU's.

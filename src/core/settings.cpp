@@ -25,7 +25,7 @@ struct Field {
 
 constexpr std::array<Choice, 2> kBounds{{{"implicit_cell", 0}, {"explicit_bits", 1}}};
 constexpr std::array<Choice, 2> kAssignment{{{"hierarchy", 0}, {"brute_force", 1}}};
-constexpr std::array<Choice, 2> kCulling{{{"light_volume", 0}, {"view_mask", 1}}};
+constexpr std::array<Choice, 5> kCulling{{{"light_volume", 0}, {"view_mask", 1}, {"projection_map", 2}, {"projection_map_depth", 3}, {"receiver_grid", 4}}};
 constexpr std::array<Choice, 2> kWriter{{{"traditional", 0}, {"multi_draw", 1}}};
 
 #define UMB_FIELD(path)                                                                    \
@@ -37,7 +37,8 @@ const std::array<Field, 11> kFields{{
      UMB_FIELD(frame.cluster_bounds), kBounds},
     {{"light_assignment", "hierarchy|brute_force", "lights per cluster through the 32-way light tree, or every pair tested"},
      UMB_FIELD(frame.light_assignment), kAssignment},
-    {{"caster_culling", "light_volume|view_mask", "batches in the light's volume to all its views, or only to the views they meet"},
+    {{"caster_culling", "light_volume|view_mask|projection_map|projection_map_depth|receiver_grid",
+      "batches in the light's volume to all its views, to those they meet, or only where and in front of what receives (virtual shadow maps)"},
      UMB_FIELD(frame.caster_culling), kCulling},
     {{"writer", "traditional|multi_draw", "a render pass per view, or one GPU-written multi-draw"}, UMB_FIELD(frame.writer), kWriter},
     {{"min_resolution", "16..1024, a power of two", "texels along a map's side at least; lights that do not fit have no map"},

@@ -71,6 +71,32 @@ struct TraversePush {        // count_casters, write_casters, write_view_casters
 };
 UMB_ASSERT_SIZE(TraversePush, 128);
 
+struct ItemPush {            // count_items, write_items
+  uint64_t frame;            // FrameRecord: lights, views, maps, what is known of receivers, counters
+  uint64_t casters;
+  uint64_t instances;
+  uint64_t batches;
+  uint64_t order;            // caster tree
+  uint64_t leaves;
+  uint64_t nodes;
+  uint64_t shape;
+  uint64_t counts;           // per map and thread: opaque and masked items of the map's threads before it
+  uint64_t totals;           // opaque items per map, then masked ones; exclusive sums once they are scanned
+  uint64_t counters;
+  uint64_t items;            // CasterItem: opaque ones, and from window_size on masked ones
+  uint64_t draw_counts;
+  uint64_t used;             // write_items marks lights that are beyond the last round
+  uint window_first;         // first item of the round
+  uint window_size;
+};
+UMB_ASSERT_SIZE(ItemPush, 120);
+
+/// What the nodes of the tree are tested against on the way to the batches of a map. The items are the same with each.
+UMB_CONST uint NodesByLight = 0u;
+UMB_CONST uint NodesByView = 1u;                   // and against the views that have receivers
+UMB_CONST uint NodesByReceivers = 2u;              // and the lowest ones as batches are
+UMB_CONST uint NodesByReceiversAtAllLevels = 3u;
+
 /// Number of the n-th set bit (O12: the layer from instance index and face mask).
 UMB_FN uint nth_set_bit(uint mask, uint n) {
   for (uint i = 0u; i < n; ++i) mask &= mask - 1u;

@@ -1,0 +1,35 @@
+// What count_items and write_items share: the map of the workgroup, and which of its views a batch goes to.
+#include "clusters/cluster_buffers.glsl"
+#include "culling/culling_types.shared.h"
+#include "culling/receivers.shared.h"
+
+UMB_ARRAY(Views, ShadowView, 4);
+UMB_ARRAY(Maps, MapRecord, 4);
+layout(push_constant, scalar) uniform PushBlock { ItemPush push; };
+
+#include "culling/walk.glsl"
+
+layout(constant_id = 0) const uint mode = CullLightVolume;
+/// What nodes are tested against besides the light (culling::NodeTest).
+layout(constant_id = 1) const uint node_test = 0u;
+
+MapRecord map;
+LightRecord light;
+ShadowView first_view;
+MapReceivers receivers;
+
+void load_map(uint index) {
+  Frame frame = Frame(push.frame);
+  map = Maps(frame.record.maps).v[index];
+  light = Lights(frame.record.lights).v[map.light];
+  first_view = Views(frame.record.views).v[map.first_view];
+  if (mode >= CullProjectionMap)
+    receivers = receivers_of(map, frame.record.projection, frame.record.receiver_depth, frame.record.receiver_grid, mode);
+}
+
+uint views_of(Box box, uint height) {
+  if (box_is_empty(box) || !light_meets_box(light, box)) return 0u;
+  if (height > 0u && (node_test == NodesByLight || (height > 1u && node_test != NodesByReceiversAtAllLevels))) return 1u;
+  Box grown = with_slack(box, first_view.origin, height == 0u ? BoxSlack : NodeSlack);
+  return faces_to_draw(map, first_view, receivers, grown, node_test == NodesByView && height > 0u ? min(mode, CullViewMask) : mode);
+}
