@@ -20,9 +20,10 @@ UMB_FN float stored_depth(Frame frame, uint view, uvec2 texel) {
   return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
 }
 
-/// How far the receiver's plane is moved: at most half-way to the light, which stays in front of it.
+/// How far the receiver's plane is moved: at most a tenth of the way to the light, or grazing planes would lose what stands on
+/// them.
 UMB_FN float normal_offset(float texel_m, vec3 relative, vec3 normal) {
-  return clamp(UmbrageNormalOffset * texel_m, 0.0f, max(-0.5f * dot(normal, relative), 0.0f));
+  return clamp(UmbrageNormalOffset * texel_m, 0.0f, max(-0.1f * dot(normal, relative), 0.0f));
 }
 
 /// Adds (visibility, weight) of a tap along a direction whose axis depth is 1: visible when nothing nearer than the plane is
