@@ -129,17 +129,20 @@ uint32_t PageRig::max_resolution() const {
   return std::max_element(maps_.begin(), maps_.end(), [](const PageMap& a, const PageMap& b) { return a.resolution < b.resolution; })->resolution;
 }
 
-std::vector<uint32_t> PageRig::draw(const std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>& write, gpu::HazardLog* log) {
+void PageRig::clear() {
+  gpu_.run([&](VkCommandBuffer commands) {
+    gpu::Recorder recorder = gpu_.recorder(commands);
+    gpu::Pass pass = recorder.pass("clear pool");
+    pass.write(pool_, gpu::Access::transfer_write);
+    recorder.device().vk().vkCmdFillBuffer(pass.commands(), pool_.handle(), 0, VK_WHOLE_SIZE, 0);
+  });
+}
+
+void PageRig::run(const Write& write, gpu::HazardLog* log) {
   gpu_.run([&](VkCommandBuffer commands) {
     gpu::Recorder recorder = gpu_.recorder(commands, log);
-    {
-      gpu::Pass pass = recorder.pass("clear pool");
-      pass.write(pool_, gpu::Access::transfer_write);
-      recorder.device().vk().vkCmdFillBuffer(pass.commands(), pool_.handle(), 0, VK_WHOLE_SIZE, 0);
-    }
     write(recorder, inputs());
   });
-  return gpu_.download<uint32_t>(pool_, pool_.size() / sizeof(uint32_t));
 }
 
 reference::DepthWindow PageRig::reference(const Page& page) const {

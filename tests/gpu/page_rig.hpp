@@ -27,8 +27,12 @@ class PageRig {
 
   /// Items of every caster in every map and view, shuffled; `by_face`: an item for each view.
   void list_items(uint32_t seed, bool by_face);
+  using Write = std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>;
+  void clear();
+  void run(const Write&, gpu::HazardLog* = nullptr);
+  std::vector<uint32_t> pool() { return gpu_.download<uint32_t>(pool_, pool_.size() / sizeof(uint32_t)); }
   /// The pool after one writer has run on clear pages.
-  std::vector<uint32_t> draw(const std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>& write, gpu::HazardLog* = nullptr);
+  std::vector<uint32_t> draw(const Write& write) { return clear(), run(write), pool(); }
   raster::PageWriterInputs inputs() const;
   uint32_t max_resolution() const;
   VkDeviceSize pool_bytes() const { return pool_.size(); }
