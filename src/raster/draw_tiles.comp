@@ -18,17 +18,22 @@ void main() {
   uint at = tile.first_texel + uint(own.y) * PageSide + uint(own.x);
   uint nearest[TileRows];
   for (uint row = 0u; row < TileRows; ++row) nearest[row] = pool.v[at + row * PageSide];
+  uint farthest = 0u;                       // of the column
   for (uint node = Uints(push.heads).v[tile.tile]; node != NoIndex;) {
     TileNode share = TileNodes(push.nodes).v[node];
     node = share.next;
     RasterTriangle t = RasterTriangles(push.triangles).v[share.triangle];
     ivec3 step_y = steps_y(t);
     ivec3 edges = share.edges + steps_x(t) * own.x + step_y * own.y;
+    ivec3 most = edges + max(step_y, ivec3(0)) * int(TileRows - 1u);
+    if (floatBitsToUint(t.z_max) <= farthest || (most.x | most.y | most.z) < 0) continue;
     for (uint row = 0u; row < TileRows; ++row, edges += step_y) {
       if ((edges.x | edges.y | edges.z) < 0) continue;
       uint key = depth_key(t, edges, share.fractions);
       if (key > nearest[row] && !(masked && is_cut_out(t, vec3(edges) + share.fractions))) nearest[row] = key;
     }
+    farthest = nearest[0];
+    for (uint row = 1u; row < TileRows; ++row) farthest = min(farthest, nearest[row]);
   }
   for (uint row = 0u; row < TileRows; ++row) pool.v[at + row * PageSide] = nearest[row];
 }
