@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "gpu/hazards.hpp"
 #include "page_rig.hpp"
 
 namespace umbrage::test {
@@ -32,7 +33,6 @@ class PageRasterTest : public GpuTest {
     return rig.draw([&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) { fragments_->record(recorder, in, side); });
   }
 
- private:
   inline static std::unique_ptr<raster::PageFragments> fragments_;
   inline static std::unique_ptr<raster::PageRaster> raster_;
 };
@@ -198,6 +198,23 @@ TEST_F(PageRasterTest, CutsMasksAsTheHardware) {
     EXPECT_LE(found.alone, found.covered / 10000) << "of " << found.covered;
     EXPECT_LE(found.depth, found.covered / 1000) << "of " << found.covered;
   }
+}
+
+TEST_F(PageRasterTest, OrdersItsPasses) {
+  TestScene scene = spiteful_scene(20, 3);
+  scene.meshes.push_back(masked_mesh());
+  scene.instances.push_back({.mesh = 3, .world_from_mesh = affine(glm::mat3(3), {0.5f, 1.2f, -2.5f})});
+  PageRig rig(gpu(), scene, {cube_map({0, 0, 0}, 0.05f, 128)}, 3);
+  draw(rig, 10);   // makes room
+  gpu::HazardLog log;
+  rig.run([](gpu::Recorder& recorder, const raster::PageWriterInputs& in) {
+    for (int twice = 0; twice < 2; ++twice) {
+      raster_->record(recorder, in);
+      fragments_->record(recorder, in, 128);
+    }
+  }, &log);
+  EXPECT_GT(log.size(), 100u);
+  for (const gpu::Hazard& hazard : gpu::find_hazards(log)) ADD_FAILURE() << hazard.text;
 }
 
 /// A light at the origin looks along +z at a plane a metre away: x and y of the plane are s and -t.
