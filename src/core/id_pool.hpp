@@ -13,14 +13,15 @@ class IdPool {
   static constexpr uint32_t kMaxSlots = 1u << kSlotBits;
   static constexpr uint32_t kMaxGeneration = (1u << (32 - kSlotBits)) - 1;
 
-  /// 0 when all slots are in use.
+  bool full() const { return free_.empty() && entries_.size() >= kMaxSlots; }
+  /// 0 when full.
   uint32_t add(T value) {
     uint32_t slot;
     if (!free_.empty()) {
       slot = free_.back();
       free_.pop_back();
     } else {
-      if (entries_.size() >= kMaxSlots) return 0;
+      if (full()) return 0;
       slot = static_cast<uint32_t>(entries_.size());
       entries_.push_back({});
     }

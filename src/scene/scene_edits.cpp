@@ -68,6 +68,7 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
 }
 
 Result<MeshId> GpuScene::add_mesh(const MeshDesc& desc) {
+  if (meshes_.full()) return full("meshes");
   if (auto text = check_stream(desc.device_positions, 3, "MeshDesc::device_positions"); !text.empty()) return invalid(text);
   if (auto text = check_stream(desc.device_uvs, 2, "MeshDesc::device_uvs"); !text.empty()) return invalid(text);
   if (!desc.uvs.empty() && desc.uvs.size() != desc.positions.size())
@@ -111,12 +112,12 @@ Result<MeshId> GpuScene::add_mesh(const MeshDesc& desc) {
   mesh.first_index = index_ranges_.take(mesh.index_count);
   for (shared::BatchRecord& batch : mesh.batches) batch.first_index += mesh.first_index;
   const uint32_t id = meshes_.add(std::move(mesh));
-  if (!id) return full("meshes");
   new_meshes_.push_back(id);
   return MeshId{id};
 }
 
 Result<InstanceId> GpuScene::add_instance(const InstanceDesc& desc) {
+  if (instances_.full()) return full("instances");
   Mesh* mesh = meshes_.find(desc.mesh.value);
   if (!mesh) return stale("mesh", desc.mesh.value);
   if (!finite(desc.world_from_mesh)) return invalid("InstanceDesc::world_from_mesh is not finite");
@@ -126,7 +127,6 @@ Result<InstanceId> GpuScene::add_instance(const InstanceDesc& desc) {
   instance.caster_count = desc.casts ? static_cast<uint32_t>(mesh->batches.size()) : 0;
   instance.first_caster = caster_ranges_.take(instance.caster_count);
   const uint32_t id = instances_.add(std::move(instance));
-  if (!id) return full("instances");
   ++mesh->instances;
   const uint32_t slot = IdPool<Instance>::slot_of(id);
   Instance& added = instances_.at(slot);

@@ -250,6 +250,22 @@ TEST_F(Edits, ThatAreWrongAreRefusedAndChangeNothing) {
   EXPECT_EQ(system.statistics().lights, 6u);
 }
 
+TEST_F(Edits, BeyondTheLastSlotAreRefusedAndChangeNothing) {
+  SystemRig rig(gpu(), {.budget_mib = 4});
+  const TestMesh plane = plane_mesh(1);
+  const MeshId mesh = take(rig.system().add_mesh({.positions = plane.positions, .indices = plane.indices}));
+  std::vector<InstanceId> instances;
+  Result<InstanceId> added = rig.system().add_instance({.mesh = mesh, .casts = false});
+  for (; added.ok(); added = rig.system().add_instance({.mesh = mesh, .casts = false})) instances.push_back(*added);
+  EXPECT_EQ(added.error().code, ErrorCode::out_of_memory);
+  EXPECT_EQ(instances.size(), 1048576u);
+  EXPECT_TRUE(rig.system().remove(instances.back()).ok());
+  instances.back() = take(rig.system().add_instance({.mesh = mesh, .casts = false}));
+  EXPECT_FALSE(rig.system().add_instance({.mesh = mesh}).ok());
+  for (const InstanceId id : instances) ASSERT_TRUE(rig.system().remove(id).ok());
+  EXPECT_TRUE(rig.system().remove(mesh).ok()) << "the refused ones count as instances";
+}
+
 TEST_F(Edits, StayPendingWhenAFrameIsRefused) {
   SystemRig rig(gpu(), {.frames_in_flight = 2, .budget_mib = 4});
   rig.show_nothing();
