@@ -55,8 +55,9 @@ void fill(DepthWindow& window, std::array<Vertex, 3> v) {
     for (int64_t column = begin(left, window.first.x); column < end(right, window.first.x); ++column) {
       const int64_t x = 256 * column + 128, y = 256 * row + 128;
       if (!is_inside(v[0], v[1], x, y) || !is_inside(v[1], v[2], x, y) || !is_inside(v[2], v[0], x, y)) continue;
-      const double z = (double(edge(v[1], v[2], x, y)) * v[0].z + double(edge(v[2], v[0], x, y)) * v[1].z +
-                        double(edge(v[0], v[1], x, y)) * v[2].z) / double(area);
+      const double z =
+          (double(edge(v[1], v[2], x, y)) * v[0].z + double(edge(v[2], v[0], x, y)) * v[1].z + double(edge(v[0], v[1], x, y)) * v[2].z) /
+          double(area);
       const size_t at = size_t(row - window.first.y) * window.side + size_t(column - window.first.x);
       window.covered[at] = true;
       window.depth[at] = std::max(window.depth[at], std::clamp(z, z_min, z_max));

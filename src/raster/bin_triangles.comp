@@ -48,7 +48,8 @@ void main() {
       uvec2 in_page = uvec2(corner) % PageSide;
       uvec2 tile = in_page / TileTexels;
       // Pages of full side begin at least that far apart.
-      uint number = origin / (PageSide * PageSide) * (PageSide / TileTexels * PageSide / TileTexels) + tile.y * (PageSide / TileTexels) + tile.x;
+      const uint side = PageSide / TileTexels;
+      uint number = origin / (PageSide * PageSide) * (side * side) + tile.y * side + tile.x;
       link(index, number, origin + in_page.y * PageSide + in_page.x, edges, fractions, node);
     } else {
       ivec2 lo = max(corner, first);

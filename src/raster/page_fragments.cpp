@@ -49,10 +49,13 @@ Result<PageFragments> PageFragments::create(const gpu::PipelineFactory& factory)
 }
 
 Result<void> PageFragments::reserve(const gpu::Device& device, gpu::Memory& memory) {
-  const struct { gpu::Buffer& target; VkDeviceSize bytes; const char* name; } needs[] = {
-      {instances_, VkDeviceSize(shared::DrawWindow) * shared::CubeFaceCount * sizeof(shared::PageInstance), "page instances"},
-      {commands_, shared::DrawWindow * sizeof(shared::DrawCommand), "page draws"},
-      {draw_count_, sizeof(uint32_t), "page draw count"}};
+  const struct {
+    gpu::Buffer& target;
+    VkDeviceSize bytes;
+    const char* name;
+  } needs[] = {{instances_, VkDeviceSize(shared::DrawWindow) * shared::CubeFaceCount * sizeof(shared::PageInstance), "page instances"},
+               {commands_, shared::DrawWindow * sizeof(shared::DrawCommand), "page draws"},
+               {draw_count_, sizeof(uint32_t), "page draw count"}};
   for (const auto& need : needs) {
     if (need.target) continue;
     auto made = gpu::Buffer::create(device, memory, need.bytes, gpu::MemoryKind::device, need.name);
@@ -64,19 +67,29 @@ Result<void> PageFragments::reserve(const gpu::Device& device, gpu::Memory& memo
 
 void PageFragments::record(gpu::Recorder& recorder, const PageWriterInputs& in, uint32_t max_resolution) const {
   for (uint32_t masked = 0; masked < (in.scene.has_masked() ? 2u : 1u); ++masked)
-    for (uint32_t first = 0; first < in.item_capacity; first += shared::DrawWindow) record_window(recorder, in, max_resolution, masked, first);
+    for (uint32_t first = 0; first < in.item_capacity; first += shared::DrawWindow)
+      record_window(recorder, in, max_resolution, masked, first);
 }
 
-void PageFragments::record_window(gpu::Recorder& recorder, const PageWriterInputs& in, uint32_t max_resolution, bool masked, uint32_t first) const {
+void PageFragments::record_window(gpu::Recorder& recorder, const PageWriterInputs& in, uint32_t max_resolution, bool masked,
+                                  uint32_t first) const {
   const uint32_t window = std::min(shared::DrawWindow, in.item_capacity - first);
   {
     gpu::Pass pass = recorder.pass("list page draws");
     for (const gpu::Buffer* buffer : {&in.maps, &in.views}) pass.read(*buffer);
-    const shared::ListDrawsPush push{.frame = pass.read(in.frame), .casters = pass.read(in.scene.caster_buffer()),
-                                     .instances = pass.read(in.scene.instance_buffer()), .batches = pass.read(in.scene.batch_buffer()),
-                                     .items = pass.read(in.items), .counts = pass.read(in.counts), .drawn = pass.write(instances_),
-                                     .commands = pass.write(commands_), .draw_count = pass.write(draw_count_), .masked = masked,
-                                     .first = first, .window = window, .item_capacity = in.item_capacity};
+    const shared::ListDrawsPush push{.frame = pass.read(in.frame),
+                                     .casters = pass.read(in.scene.caster_buffer()),
+                                     .instances = pass.read(in.scene.instance_buffer()),
+                                     .batches = pass.read(in.scene.batch_buffer()),
+                                     .items = pass.read(in.items),
+                                     .counts = pass.read(in.counts),
+                                     .drawn = pass.write(instances_),
+                                     .commands = pass.write(commands_),
+                                     .draw_count = pass.write(draw_count_),
+                                     .masked = masked,
+                                     .first = first,
+                                     .window = window,
+                                     .item_capacity = in.item_capacity};
     pass.dispatch(list_, push, (window + shared::RasterThreads - 1) / shared::RasterThreads);
   }
   using enum gpu::Access;
@@ -87,7 +100,8 @@ void PageFragments::record_window(gpu::Recorder& recorder, const PageWriterInput
   pass.read(draw_count_, indirect_read);
   for (const gpu::Buffer* buffer : {&in.page_bits, &in.page_first}) pass.read(*buffer, fragment_read);
   pass.write(in.pool, fragment_write);
-  const shared::CastPagePush push{.frame = pass.read(in.frame, fragment_read), .batches = pass.read(in.scene.batch_buffer(), fragment_read),
+  const shared::CastPagePush push{.frame = pass.read(in.frame, fragment_read),
+                                  .batches = pass.read(in.scene.batch_buffer(), fragment_read),
                                   .viewport_size = {max_resolution, max_resolution}};
   const gpu::Functions& vk = recorder.device().vk();
   const VkCommandBuffer commands = pass.commands();

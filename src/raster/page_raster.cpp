@@ -31,10 +31,13 @@ Result<PageRaster> PageRaster::create(const gpu::PipelineFactory& factory) {
   if (!plan) return plan.error();
   out.plan_ = std::move(*plan);
   for (uint32_t masked = 0; masked < 2; ++masked) {
-    const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
-        {out.rasterize_[masked], kRasterize, masked ? "rasterize triangles, masked" : "rasterize triangles"},
-        {out.bin_[masked], kBin, masked ? "bin triangles, masked" : "bin triangles"},
-        {out.draw_tiles_[masked], kDrawTiles, masked ? "draw tiles, masked" : "draw tiles"}};
+    const struct {
+      gpu::Pipeline& target;
+      std::span<const uint32_t> spirv;
+      const char* name;
+    } all[] = {{out.rasterize_[masked], kRasterize, masked ? "rasterize triangles, masked" : "rasterize triangles"},
+               {out.bin_[masked], kBin, masked ? "bin triangles, masked" : "bin triangles"},
+               {out.draw_tiles_[masked], kDrawTiles, masked ? "draw tiles, masked" : "draw tiles"}};
     for (const auto& entry : all) {
       auto made = factory.compute(entry.spirv, entry.name, {{0, masked}});
       if (!made) return made.error();
@@ -48,7 +51,12 @@ Result<void> PageRaster::reserve(const gpu::Device& device, gpu::Memory& memory,
                                  std::vector<gpu::Buffer>& retired) {
   const uint32_t nodes = std::max(large_triangles, 1u) * kNodesPerTriangle;
   const VkDeviceSize tiles = pool_bytes / kTileBytes + kTilesPerPage;
-  struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
+  struct Need {
+    gpu::Buffer& target;
+    VkDeviceSize bytes;
+    const char* name;
+    gpu::Buffer made;
+  };
   Need needs[] = {{arguments_, sizeof(shared::RasterArguments), "raster arguments", {}},
                   {appended_, sizeof(shared::RasterCounts), "raster counts", {}},
                   {triangles_, std::max(large_triangles, 1u) * sizeof(shared::RasterTriangle), "large triangles", {}},
@@ -73,12 +81,23 @@ Result<void> PageRaster::reserve(const gpu::Device& device, gpu::Memory& memory,
 
 void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
   const bool masked = in.scene.has_masked();
-  shared::PageRasterPush push{.frame = in.frame.address(), .casters = in.scene.caster_buffer().address(),
-                              .instances = in.scene.instance_buffer().address(), .batches = in.scene.batch_buffer().address(),
-                              .indices = in.scene.index_buffer().address(), .items = in.items.address(), .counts = in.counts.address(),
-                              .arguments = arguments_.address(), .appended = appended_.address(), .triangles = triangles_.address(), .nodes = nodes_.address(),
-                              .heads = heads_.address(), .tiles = tiles_.address(), .item_capacity = in.item_capacity,
-                              .large_capacity = large_capacity_, .node_capacity = node_capacity_, .step = shared::PlanItems};
+  shared::PageRasterPush push{.frame = in.frame.address(),
+                              .casters = in.scene.caster_buffer().address(),
+                              .instances = in.scene.instance_buffer().address(),
+                              .batches = in.scene.batch_buffer().address(),
+                              .indices = in.scene.index_buffer().address(),
+                              .items = in.items.address(),
+                              .counts = in.counts.address(),
+                              .arguments = arguments_.address(),
+                              .appended = appended_.address(),
+                              .triangles = triangles_.address(),
+                              .nodes = nodes_.address(),
+                              .heads = heads_.address(),
+                              .tiles = tiles_.address(),
+                              .item_capacity = in.item_capacity,
+                              .large_capacity = large_capacity_,
+                              .node_capacity = node_capacity_,
+                              .step = shared::PlanItems};
   const auto plan = [&](uint32_t step) {
     gpu::Pass pass = recorder.pass("plan dispatches");
     pass.read(in.counts);
@@ -101,8 +120,8 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
   {
     gpu::Pass pass = recorder.pass("rasterize triangles");
     read_places(pass);
-    for (const gpu::Buffer* buffer : {&in.views, &in.items, &in.counts, &in.scene.caster_buffer(), &in.scene.instance_buffer(), &in.scene.index_buffer()})
-      pass.read(*buffer);
+    for (const gpu::Buffer* buffer : {&in.views, &in.items, &in.counts}) pass.read(*buffer);
+    for (const gpu::Buffer* buffer : {&in.scene.caster_buffer(), &in.scene.instance_buffer(), &in.scene.index_buffer()}) pass.read(*buffer);
     pass.write(appended_);
     pass.write(triangles_);
     for (uint32_t kind = 0; kind < (masked ? 2u : 1u); ++kind)

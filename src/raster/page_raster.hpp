@@ -12,7 +12,8 @@ class PageRaster {
   static Result<PageRaster> create(const gpu::PipelineFactory&);
   /// Room for a frame's large triangles (beyond it they are drawn by one thread each: slower, never missing) and for the tiles
   /// of a pool. Former buffers go to `retired`.
-  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t large_triangles, VkDeviceSize pool_bytes, std::vector<gpu::Buffer>& retired);
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t large_triangles, VkDeviceSize pool_bytes,
+                       std::vector<gpu::Buffer>& retired);
   /// Adds the items' depths to the pool.
   void record(gpu::Recorder&, const PageWriterInputs&);
 

@@ -6,14 +6,14 @@ namespace umbrage::raster {
 
 struct PageWriterInputs {
   const scene::GpuScene& scene;
-  const gpu::Buffer& frame;        ///< FrameRecord first, with the addresses of the next five.
+  const gpu::Buffer& frame;  ///< FrameRecord first, with the addresses of the next five.
   const gpu::Buffer& views;
   const gpu::Buffer& maps;
   const gpu::Buffer& page_bits;
   const gpu::Buffer& page_first;
-  const gpu::Buffer& pool;         ///< Depth keys, cleared where pages are new.
-  const gpu::Buffer& items;        ///< CasterItem: opaque ones from 0, masked ones from item_capacity on.
-  const gpu::Buffer& counts;       ///< DrawCounts; items beyond item_capacity are left out.
+  const gpu::Buffer& pool;    ///< Depth keys, cleared where pages are new.
+  const gpu::Buffer& items;   ///< CasterItem: opaque ones from 0, masked ones from item_capacity on.
+  const gpu::Buffer& counts;  ///< DrawCounts; items beyond item_capacity are left out.
   uint32_t item_capacity;
 };
 

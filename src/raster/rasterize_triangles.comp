@@ -178,7 +178,8 @@ void main() {
       precise vec3 r = vec3(dot(instance.row0.xyz, p), dot(instance.row1.xyz, p), dot(instance.row2.xyz, p)) + translation;
       relative[i] = r;
       uv[i] = vec2(0.0);
-      if (masked) uv[i] = vec2(Floats(instance.uvs).v[vertex * instance.uv_stride], Floats(instance.uvs).v[vertex * instance.uv_stride + 1u]);
+      uint uv_at = vertex * instance.uv_stride;
+      if (masked) uv[i] = vec2(Floats(instance.uvs).v[uv_at], Floats(instance.uvs).v[uv_at + 1u]);
     }
     for (uint faces = item.faces; faces != 0u; faces &= faces - 1u) {
       uint face = uint(findLSB(faces));

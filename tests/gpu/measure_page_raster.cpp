@@ -29,7 +29,8 @@ class Stopwatch {
   void stop(VkCommandBuffer commands) { vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, 1); }
   double ms() {
     uint64_t ticks[2];
-    check(vkGetQueryPoolResults(gpu_.desc().device, pool_, 0, 2, sizeof ticks, ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+    check(vkGetQueryPoolResults(gpu_.desc().device, pool_, 0, 2, sizeof ticks, ticks, sizeof(uint64_t),
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "vkGetQueryPoolResults");
     return double(ticks[1] - ticks[0]) * double(gpu_.device().limits().timestamp_period_ns) * 1e-6;
   }
@@ -67,7 +68,9 @@ std::vector<Case> cases() {
   room.meshes = {box_mesh()};
   room.instances = {{.mesh = 0, .world_from_mesh = affine(glm::mat3(4), {0.4f, 0.2f, 0.3f})}};
   for (uint32_t i = 0; i < 30; ++i)
-    room.instances.push_back({.mesh = 0, .world_from_mesh = random_affine(i, {2 * std::sin(2.4f * float(i)), std::sin(1.3f * float(i)), 2 * std::cos(2.4f * float(i))})});
+    room.instances.push_back(
+        {.mesh = 0,
+         .world_from_mesh = random_affine(i, {2 * std::sin(2.4f * float(i)), std::sin(1.3f * float(i)), 2 * std::cos(2.4f * float(i))})});
   out.push_back({"room of boxes, cube of 1024 texels", room, {cube_map({0.1f, 2.5f, 0}, 0.05f, 1024)}});
   if (!getenv("NOBIG")) out.push_back({"room of boxes, cube of 4096 texels", room, {cube_map({0.1f, 2.5f, 0}, 0.05f, 4096)}});
   return out;
@@ -92,8 +95,10 @@ TEST_F(MeasuresPageWriters, DISABLED_SideBySide) {
         const double before = processor_ms();
         rig.run([&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) {
           watch.start(recorder.pass("start").commands());
-          if (writer == 0) compute.record(recorder, in);
-          else fragments.record(recorder, in, rig.max_resolution());
+          if (writer == 0)
+            compute.record(recorder, in);
+          else
+            fragments.record(recorder, in, rig.max_resolution());
           watch.stop(recorder.pass("stop").commands());
         });
         processor[writer] = std::min(processor[writer], processor_ms() - before);
@@ -101,8 +106,8 @@ TEST_F(MeasuresPageWriters, DISABLED_SideBySide) {
       }
     }
     for (int writer = 0; writer < 2; ++writer)
-      std::printf("%-36s %-9s %9.3f ms device %9.3f ms processors %8.3f Mtri/s\n", one.name, writer ? "fragments" : "compute", best[writer], processor[writer],
-                  double(triangles * views) * 1e-3 / best[writer]);
+      std::printf("%-36s %-9s %9.3f ms device %9.3f ms processors %8.3f Mtri/s\n", one.name, writer ? "fragments" : "compute", best[writer],
+                  processor[writer], double(triangles * views) * 1e-3 / best[writer]);
   }
 }
 

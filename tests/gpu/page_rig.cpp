@@ -13,7 +13,10 @@ PageMap cube_map(const glm::vec3& origin, float near_m, uint32_t resolution, dou
 }
 
 PageMap spot_map(const glm::vec3& origin, const glm::vec3& direction, float cone_rad, float near_m, uint32_t resolution, double marked) {
-  return {shared::ViewsSpot, resolution, {shared::perspective_view(origin, near_m, shared::view_rotation(direction), std::tan(cone_rad))}, marked};
+  return {shared::ViewsSpot,
+          resolution,
+          {shared::perspective_view(origin, near_m, shared::view_rotation(direction), std::tan(cone_rad))},
+          marked};
 }
 
 PageMap ortho_map(const glm::vec3& direction, const glm::vec3& box_min, const glm::vec3& box_max, uint32_t resolution, double marked) {
@@ -21,7 +24,10 @@ PageMap ortho_map(const glm::vec3& direction, const glm::vec3& box_min, const gl
 }
 
 PageRig::PageRig(Gpu& gpu, const TestScene& test_scene, std::vector<PageMap> maps, uint32_t seed)
-    : gpu_(gpu), test_scene_(test_scene), maps_(std::move(maps)), scene_(gpu.device(), gpu.memory(), {}),
+    : gpu_(gpu),
+      test_scene_(test_scene),
+      maps_(std::move(maps)),
+      scene_(gpu.device(), gpu.memory(), {}),
       mask_(gpu, VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT, 16, 16) {
   std::vector<uint32_t> checkers(256);
   for (uint32_t i = 0; i < checkers.size(); ++i) checkers[i] = (i / 4 + i / 64) % 2 ? 0xffffffffu : 0x00ffffffu;
@@ -71,8 +77,9 @@ void PageRig::lay_out(std::mt19937& engine) {
         for (uint32_t bit = 0; bit < 32 && word * 32 + bit < record.pages * record.pages; ++bit) {
           if (chance(engine) >= map.marked) continue;
           const uint32_t page = word * 32 + bit;
-          pages_.push_back({static_cast<uint32_t>(records_.size()), view, glm::uvec2(page % record.pages, page / record.pages) * shared::PageSide,
-                            shared::page_side_of(map.resolution), units * shared::PoolUnit});
+          pages_.push_back({static_cast<uint32_t>(records_.size()), view,
+                            glm::uvec2(page % record.pages, page / record.pages) * shared::PageSide, shared::page_side_of(map.resolution),
+                            units * shared::PoolUnit});
           units += shared::page_units_of(map.resolution);
           marks |= 1u << bit;
         }
@@ -99,7 +106,8 @@ void PageRig::lay_out(std::mt19937& engine) {
 
 void PageRig::list_items(uint32_t seed, bool by_face) {
   const auto casters = gpu_.download<shared::CasterRecord>(scene_.caster_buffer(), scene_.caster_slots());
-  const auto batches = gpu_.download<shared::BatchRecord>(scene_.batch_buffer(), scene_.batch_buffer().size() / sizeof(shared::BatchRecord));
+  const auto batches =
+      gpu_.download<shared::BatchRecord>(scene_.batch_buffer(), scene_.batch_buffer().size() / sizeof(shared::BatchRecord));
   std::mt19937 engine(seed);
   for (auto& list : items_) list.clear();
   for (uint32_t caster = 0; caster < casters.size(); ++caster) {
@@ -126,7 +134,8 @@ raster::PageWriterInputs PageRig::inputs() const {
 }
 
 uint32_t PageRig::max_resolution() const {
-  return std::max_element(maps_.begin(), maps_.end(), [](const PageMap& a, const PageMap& b) { return a.resolution < b.resolution; })->resolution;
+  return std::max_element(maps_.begin(), maps_.end(), [](const PageMap& a, const PageMap& b) { return a.resolution < b.resolution; })
+      ->resolution;
 }
 
 void PageRig::clear() {
@@ -157,7 +166,8 @@ reference::DepthWindow PageRig::reference(const Page& page) const {
       std::array<glm::vec4, 3> clip;
       for (size_t k = 0; k < 3; ++k) {
         const glm::vec3 p = to_glm(mesh.positions[mesh.indices[i + k]]);
-        const glm::vec3 turned(glm::dot(glm::vec3(m[0], m[1], m[2]), p), glm::dot(glm::vec3(m[4], m[5], m[6]), p), glm::dot(glm::vec3(m[8], m[9], m[10]), p));
+        const glm::vec3 turned(glm::dot(glm::vec3(m[0], m[1], m[2]), p), glm::dot(glm::vec3(m[4], m[5], m[6]), p),
+                               glm::dot(glm::vec3(m[8], m[9], m[10]), p));
         clip[k] = shared::clip_position(view, map.kind, page.view, turned + translation);
       }
       reference::draw_triangle(window, clip);

@@ -39,7 +39,7 @@ class PageRig {
 
   struct Page {
     uint32_t map, view;
-    glm::uvec2 first;      // texel
+    glm::uvec2 first;  // texel
     uint32_t side;
     uint32_t pool_texel;
   };

@@ -82,13 +82,26 @@ TestMesh spiteful_mesh(uint32_t count, uint32_t seed) {
     const glm::vec3 at = glm::normalize(random(1)) * distance;
     glm::vec3 corners[3] = {at, at + random(size), at + random(size)};
     switch (engine() % 12) {
-      case 0: corners[2] = corners[1] + random(1e-4f); break;                                       // sliver
-      case 1: corners[1] = at + random(200), corners[2] = at - random(200); break;                  // huge
-      case 2: corners[2] = glm::mix(corners[0], corners[1], 0.3f); break;                           // degenerate
-      case 3: corners[1] = -at; break;                                                              // through the light, or nearly
-      case 4: corners[1] = at + random(0.01f), corners[2] = -at * 30.0f; break;                     // from before to behind
-      case 5: corners[0] = random(0.02f), corners[1] = random(0.02f); break;                        // about the near plane
-      default: break;
+      case 0:
+        corners[2] = corners[1] + random(1e-4f);
+        break;  // sliver
+      case 1:
+        corners[1] = at + random(200), corners[2] = at - random(200);
+        break;  // huge
+      case 2:
+        corners[2] = glm::mix(corners[0], corners[1], 0.3f);
+        break;  // degenerate
+      case 3:
+        corners[1] = -at;
+        break;  // through the light, or nearly
+      case 4:
+        corners[1] = at + random(0.01f), corners[2] = -at * 30.0f;
+        break;  // from before to behind
+      case 5:
+        corners[0] = random(0.02f), corners[1] = random(0.02f);
+        break;  // about the near plane
+      default:
+        break;
     }
     for (const glm::vec3& corner : corners) {
       mesh.indices.push_back(static_cast<uint32_t>(mesh.positions.size()));
@@ -103,8 +116,8 @@ TestScene spiteful_scene(uint32_t triangles, uint32_t seed) {
   scene.meshes = {spiteful_mesh(triangles, seed), sphere_mesh(12, 16), box_mesh()};
   scene.instances = {{.mesh = 0, .world_from_mesh = affine(glm::mat3(1), {0, 0, 0})},
                      {.mesh = 1, .world_from_mesh = random_affine(seed, {2, 0.6f, 1})},
-                     {.mesh = 1, .world_from_mesh = affine(glm::mat3(-0.7f, 0, 0, 0, 0.7f, 0, 0, 0, 0.7f), {-1, 1, -2})},   // mirrored
-                     {.mesh = 2, .world_from_mesh = affine(glm::mat3(9), {0.1f, 0.2f, 0.3f})}};                             // a room
+                     {.mesh = 1, .world_from_mesh = affine(glm::mat3(-0.7f, 0, 0, 0, 0.7f, 0, 0, 0, 0.7f), {-1, 1, -2})},  // mirrored
+                     {.mesh = 2, .world_from_mesh = affine(glm::mat3(9), {0.1f, 0.2f, 0.3f})}};                            // a room
   return scene;
 }
 
@@ -130,14 +143,15 @@ TEST_F(PageRasterTest, DrawsSpotsAndSunsAsTheReference) {
   for (const uint32_t resolution : {4u, 32u, 128u, 512u}) {
     maps.push_back(spot_map({0.5f, 3, 0.2f}, {0.2f, -1, -0.4f}, 0.6f, 0.1f, resolution, 0.7));
     maps.push_back(ortho_map({0.3f, -1, 0.45f}, glm::vec3(-10), glm::vec3(10), resolution, 0.7));
-    maps.push_back(ortho_map({0, 0, 1}, glm::vec3(-2), glm::vec3(3), resolution, 0.7));   // casters beyond all its sides
+    maps.push_back(ortho_map({0, 0, 1}, glm::vec3(-2), glm::vec3(3), resolution, 0.7));  // casters beyond all its sides
   }
   PageRig rig(gpu(), spiteful_scene(300, 4), maps, 4);
   expect_reference(rig, draw(rig, 10000), 0.5);
 }
 
 TEST_F(PageRasterTest, GivesTheSameBitsHoweverItIsFed) {
-  const std::vector<PageMap> maps{cube_map({0, 0, 0}, 0.05f, 512, 0.8), cube_map({0.4f, 1, 0}, 0.1f, 64), spot_map({0, 3, 0}, {0, -1, 0.1f}, 0.8f, 0.1f, 1024, 0.7),
+  const std::vector<PageMap> maps{cube_map({0, 0, 0}, 0.05f, 512, 0.8), cube_map({0.4f, 1, 0}, 0.1f, 64),
+                                  spot_map({0, 3, 0}, {0, -1, 0.1f}, 0.8f, 0.1f, 1024, 0.7),
                                   ortho_map({0.3f, -1, 0.45f}, glm::vec3(-10), glm::vec3(10), 512, 0.7)};
   TestScene scene = spiteful_scene(300, 9);
   scene.meshes.push_back(masked_mesh());
@@ -163,21 +177,25 @@ Difference difference(const std::vector<uint32_t>& a, const std::vector<uint32_t
   for (size_t i = 0; i < a.size(); ++i) {
     const float first = shared::uintBitsToFloat(a[i]), second = shared::uintBitsToFloat(b[i]);
     out.covered += a[i] != 0;
-    if ((a[i] == 0) != (b[i] == 0)) ++out.alone;
-    else out.depth += std::abs(first - second) > 1e-3f * first;
+    if ((a[i] == 0) != (b[i] == 0))
+      ++out.alone;
+    else
+      out.depth += std::abs(first - second) > 1e-3f * first;
   }
   return out;
 }
 
-const std::vector<PageMap> kFewMaps{cube_map({0, 0, 0}, 0.05f, 1024), cube_map({0.1f, 3, 0.2f}, 0.05f, 512, 0.7), cube_map({0.1f, 3, 0.2f}, 0.05f, 32),
-                                    spot_map({-3, 3, 0.5f}, {1, -1, 0.1f}, 0.5f, 0.1f, 1024),
+const std::vector<PageMap> kFewMaps{cube_map({0, 0, 0}, 0.05f, 1024), cube_map({0.1f, 3, 0.2f}, 0.05f, 512, 0.7),
+                                    cube_map({0.1f, 3, 0.2f}, 0.05f, 32), spot_map({-3, 3, 0.5f}, {1, -1, 0.1f}, 0.5f, 0.1f, 1024),
                                     ortho_map({0.3f, -1, 0.45f}, glm::vec3(-3), glm::vec3(3), 1024)};
 
 TEST_F(PageRasterTest, AgreesWithTheHardware) {
   TestScene scene;
   scene.meshes = {sphere_mesh(120, 150), box_mesh()};
-  scene.instances = {{.mesh = 0, .world_from_mesh = random_affine(3, {1.5f, 0.4f, 0.3f})}, {.mesh = 0, .world_from_mesh = random_affine(8, {-0.8f, -1.4f, 0.9f})},
-                     {.mesh = 1, .world_from_mesh = random_affine(4, {0.2f, 1.9f, -2})}, {.mesh = 1, .world_from_mesh = affine(glm::mat3(4), {3, 0.3f, 0.2f})}};
+  scene.instances = {{.mesh = 0, .world_from_mesh = random_affine(3, {1.5f, 0.4f, 0.3f})},
+                     {.mesh = 0, .world_from_mesh = random_affine(8, {-0.8f, -1.4f, 0.9f})},
+                     {.mesh = 1, .world_from_mesh = random_affine(4, {0.2f, 1.9f, -2})},
+                     {.mesh = 1, .world_from_mesh = affine(glm::mat3(4), {3, 0.3f, 0.2f})}};
   PageRig rig(gpu(), scene, kFewMaps, 2);
   const auto pool = draw(rig, 1000);
   const Difference found = difference(pool, draw_by_fragments(rig));
@@ -190,7 +208,9 @@ TEST_F(PageRasterTest, CutsMasksAsTheHardware) {
   TestScene scene;
   scene.meshes = {masked_mesh(), box_mesh()};
   for (uint32_t i = 0; i < 12; ++i)
-    scene.instances.push_back({.mesh = i == 0, .world_from_mesh = random_affine(i + 20, {3 * std::sin(2.4f * float(i)), 2 * std::sin(1.3f * float(i)), 3 * std::cos(2.4f * float(i))})});
+    scene.instances.push_back({.mesh = i == 0,
+                               .world_from_mesh = random_affine(
+                                   i + 20, {3 * std::sin(2.4f * float(i)), 2 * std::sin(1.3f * float(i)), 3 * std::cos(2.4f * float(i))})});
   PageRig rig(gpu(), scene, kFewMaps, 2);
   for (const uint32_t large : {0u, 1000u}) {
     const Difference found = difference(draw(rig, large), draw_by_fragments(rig));
@@ -205,14 +225,16 @@ TEST_F(PageRasterTest, OrdersItsPasses) {
   scene.meshes.push_back(masked_mesh());
   scene.instances.push_back({.mesh = 3, .world_from_mesh = affine(glm::mat3(3), {0.5f, 1.2f, -2.5f})});
   PageRig rig(gpu(), scene, {cube_map({0, 0, 0}, 0.05f, 128)}, 3);
-  draw(rig, 10);   // makes room
+  draw(rig, 10);  // makes room
   gpu::HazardLog log;
-  rig.run([](gpu::Recorder& recorder, const raster::PageWriterInputs& in) {
-    for (int twice = 0; twice < 2; ++twice) {
-      raster_->record(recorder, in);
-      fragments_->record(recorder, in, 128);
-    }
-  }, &log);
+  rig.run(
+      [](gpu::Recorder& recorder, const raster::PageWriterInputs& in) {
+        for (int twice = 0; twice < 2; ++twice) {
+          raster_->record(recorder, in);
+          fragments_->record(recorder, in, 128);
+        }
+      },
+      &log);
   EXPECT_GT(log.size(), 100u);
   for (const gpu::Hazard& hazard : gpu::find_hazards(log)) ADD_FAILURE() << hazard.text;
 }
@@ -224,16 +246,21 @@ glm::vec3 at_texel(double column, double row, uint32_t resolution) {
 
 TEST_F(PageRasterTest, CoversTexelCentresOnEdgesOnce) {
   constexpr uint32_t kSide = 256;
-  struct Quad { double left, top, right, bottom; };
-  const Quad quads[] = {{10.5, 10.5, 20.5, 14.5}, {100.5, 3.5, 164.5, 67.5}, {0, 200, 256, 256}, {30.5, 100.5, 31.5, 101.5}, {120.25, 120.75, 136.5, 135.5}};
+  struct Quad {
+    double left, top, right, bottom;
+  };
+  const Quad quads[] = {
+      {10.5, 10.5, 20.5, 14.5}, {100.5, 3.5, 164.5, 67.5}, {0, 200, 256, 256}, {30.5, 100.5, 31.5, 101.5}, {120.25, 120.75, 136.5, 135.5}};
   for (const bool falling : {true, false}) {
     TestScene scene;
     TestMesh mesh;
     for (const Quad& quad : quads) {
       const uint32_t first = static_cast<uint32_t>(mesh.positions.size());
-      for (const glm::dvec2& corner : {glm::dvec2(quad.left, quad.top), {quad.right, quad.top}, {quad.right, quad.bottom}, {quad.left, quad.bottom}})
+      for (const glm::dvec2& corner :
+           {glm::dvec2(quad.left, quad.top), {quad.right, quad.top}, {quad.right, quad.bottom}, {quad.left, quad.bottom}})
         mesh.positions.push_back(to_vec3(at_texel(corner.x, corner.y, kSide)));
-      for (const uint32_t i : falling ? std::array{0u, 1u, 2u, 0u, 2u, 3u} : std::array{0u, 3u, 1u, 1u, 2u, 3u}) mesh.indices.push_back(first + i);
+      for (const uint32_t i : falling ? std::array{0u, 1u, 2u, 0u, 2u, 3u} : std::array{0u, 3u, 1u, 1u, 2u, 3u})
+        mesh.indices.push_back(first + i);
     }
     scene.meshes = {mesh};
     scene.instances = {{.mesh = 0, .world_from_mesh = affine(glm::mat3(1), {0, 0, 0})}};
@@ -244,8 +271,8 @@ TEST_F(PageRasterTest, CoversTexelCentresOnEdgesOnce) {
       for (uint32_t i = 0; i < page.side * page.side; ++i) {
         const double x = page.first.x + i % page.side + 0.5, y = page.first.y + i / page.side + 0.5;
         const bool inside = page.view == 4 && std::any_of(std::begin(quads), std::end(quads), [&](const Quad& quad) {
-          return x >= quad.left && x < quad.right && y >= quad.top && y < quad.bottom;
-        });
+                              return x >= quad.left && x < quad.right && y >= quad.top && y < quad.bottom;
+                            });
         covered += inside;
         wrong += pool[page.pool_texel + i] != (inside ? shared::floatBitsToUint(0.5f) : 0u);
       }
