@@ -29,7 +29,8 @@ struct BoxInView {
 BoxInView in_view(const CasterView& view, const Box& box, double tolerance) {
   BoxInView seen{along(view.x, box), along(view.y, box), along(view.depth, box)};
   const auto farthest = [](Interval i) { return std::max(std::abs(i.low), std::abs(i.high)); };
-  const double grow = tolerance * std::max({farthest(seen.x), farthest(seen.y), farthest(seen.depth), view.perspective ? 0.0 : 1.0});
+  const double grow =
+      tolerance * std::max({farthest(seen.x), farthest(seen.y), farthest(seen.depth), view.perspective ? 0.0 : 1.0});
   for (Interval* interval : {&seen.x, &seen.y, &seen.depth}) interval->low -= grow, interval->high += grow;
   return seen;
 }
@@ -38,13 +39,19 @@ BoxInView in_view(const CasterView& view, const Box& box, double tolerance) {
 Interval depths_within(Interval c, Interval quotient) {
   Interval depths{0, std::numeric_limits<double>::infinity()};
   // quotient.low * depth ≤ c.high
-  if (quotient.low > 0) depths.high = std::min(depths.high, c.high / quotient.low);
-  else if (quotient.low < 0) depths.low = std::max(depths.low, c.high / quotient.low);
-  else if (c.high < 0) return {1, 0};
+  if (quotient.low > 0)
+    depths.high = std::min(depths.high, c.high / quotient.low);
+  else if (quotient.low < 0)
+    depths.low = std::max(depths.low, c.high / quotient.low);
+  else if (c.high < 0)
+    return {1, 0};
   // quotient.high * depth ≥ c.low
-  if (quotient.high > 0) depths.low = std::max(depths.low, c.low / quotient.high);
-  else if (quotient.high < 0) depths.high = std::min(depths.high, c.low / quotient.high);
-  else if (c.low > 0) return {1, 0};
+  if (quotient.high > 0)
+    depths.low = std::max(depths.low, c.low / quotient.high);
+  else if (quotient.high < 0)
+    depths.high = std::min(depths.high, c.low / quotient.high);
+  else if (c.low > 0)
+    return {1, 0};
   return depths;
 }
 
@@ -55,19 +62,23 @@ Interval depths_in_window(const CasterView& view, const BoxInView& box, Interval
     return meets ? box.depth : Interval{1, 0};
   }
   const Interval by_x = depths_within(box.x, s), by_y = depths_within(box.y, t);
-  const Interval depths{std::max({box.depth.low, by_x.low, by_y.low}), std::min({box.depth.high, by_x.high, by_y.high})};
+  const Interval depths{std::max({box.depth.low, by_x.low, by_y.low}),
+                        std::min({box.depth.high, by_x.high, by_y.high})};
   return depths.high > 0 ? depths : Interval{1, 0};
 }
 
 Interval tile(uint32_t i) { return {2.0 * i / projection_side - 1, 2.0 * (i + 1) / projection_side - 1}; }
 
-bool draws(const CasterView& view, const CasterReceivers& receivers, bool whole, const Box& box, CasterTest test, double tolerance) {
+bool draws(const CasterView& view, const CasterReceivers& receivers, bool whole, const Box& box, CasterTest test,
+           double tolerance) {
   const BoxInView seen = in_view(view, box, tolerance);
   const Interval depths = depths_in_window(view, seen, {-1, 1}, {-1, 1});
   if (depths.empty()) return false;
   if (whole) return true;
   const auto in_front_of = [&](float receiver) { return depths.low <= double(receiver) * (1 + tolerance) + tolerance; };
-  if (test == CasterTest::projection_map_depth && !in_front_of(*std::max_element(receivers.farthest.begin(), receivers.farthest.end()))) return false;
+  if (test == CasterTest::projection_map_depth &&
+      !in_front_of(*std::max_element(receivers.farthest.begin(), receivers.farthest.end())))
+    return false;
   const uint32_t tiles_per_cell = projection_side / receivers.grid;
   for (uint32_t y = 0; y < projection_side; ++y) {
     for (uint32_t x = 0; x < projection_side; ++x) {

@@ -6,7 +6,7 @@
 
 UMB_NAMESPACE_BEGIN
 
-/// Threads that share a light's traversal; each owns the lowest nodes whose number has its remainder.
+/// Threads that share a traversal; each owns the lowest nodes whose number has its remainder. A multiple of TreeWidth.
 UMB_CONST uint TraverseThreads = 64u;
 
 /// A batch drawn into one view: everything that is the same for its vertices, as instance attributes of cast.vert. (Loads by
@@ -91,11 +91,10 @@ struct ItemPush {            // count_items, write_items
 };
 UMB_ASSERT_SIZE(ItemPush, 120);
 
-/// What the nodes of the tree are tested against on the way to the batches of a map. The items are the same with each.
+/// What the lowest nodes of the tree are tested against on the way to the batches of a map. The items are the same with each.
 UMB_CONST uint NodesByLight = 0u;
 UMB_CONST uint NodesByView = 1u;                   // and against the views that have receivers
-UMB_CONST uint NodesByReceivers = 2u;              // and the lowest ones as batches are
-UMB_CONST uint NodesByReceiversAtAllLevels = 3u;
+UMB_CONST uint NodesByReceivers = 2u;              // as batches are
 
 /// Number of the n-th set bit (O12: the layer from instance index and face mask).
 UMB_FN uint nth_set_bit(uint mask, uint n) {

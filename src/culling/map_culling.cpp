@@ -1,4 +1,4 @@
-// One pipeline a mode; a workgroup a map.
+// Two pipelines a mode; a workgroup a map.
 #include "culling/map_culling.hpp"
 
 #include <algorithm>
@@ -17,34 +17,46 @@ constexpr uint32_t kWrite[] =
     ;
 
 using enum umbrage::CasterCulling;
-static_assert(static_cast<uint32_t>(light_volume) == shared::CullLightVolume && static_cast<uint32_t>(view_mask) == shared::CullViewMask &&
+static_assert(static_cast<uint32_t>(light_volume) == shared::CullLightVolume &&
+              static_cast<uint32_t>(view_mask) == shared::CullViewMask &&
               static_cast<uint32_t>(projection_map) == shared::CullProjectionMap &&
               static_cast<uint32_t>(projection_map_depth) == shared::CullProjectionMapDepth &&
-              static_cast<uint32_t>(receiver_grid) == shared::CullReceiverGrid && shared::CullReceiverGrid + 1 == MapCulling::kModes);
+              static_cast<uint32_t>(receiver_grid) == shared::CullReceiverGrid &&
+              shared::CullReceiverGrid + 1 == MapCulling::kModes);
 
 constexpr VkDeviceSize kMapGroups = offsetof(shared::FrameCounters, map_groups);
 }  // namespace
 
 Result<MapCulling> MapCulling::create(const gpu::PipelineFactory& factory, uint32_t node_test) {
   MapCulling out;
+  out.node_test_ = node_test;
   auto scan = gpu::PrefixSum::create(factory);
   if (!scan) return scan.error();
   out.scan_ = std::move(*scan);
-  for (uint32_t mode = 0; mode < kModes; ++mode) {
-    auto count = factory.compute(kCount, "count items", {{0, mode}, {1, node_test}});
-    if (!count) return count.error();
-    out.count_[mode] = std::move(*count);
-    auto write = factory.compute(kWrite, "write items", {{0, mode}, {1, node_test}});
-    if (!write) return write.error();
-    out.write_[mode] = std::move(*write);
-  }
   return out;
 }
 
-Result<void> MapCulling::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t map_capacity, uint32_t item_capacity,
-                                 std::vector<gpu::Buffer>& retired) {
+Result<void> MapCulling::prepare(const gpu::PipelineFactory& factory, umbrage::CasterCulling mode) {
+  const auto constant = static_cast<uint32_t>(mode);
+  if (write_[constant].handle()) return {};
+  auto count = factory.compute(kCount, "count items", {{0, constant}, {1, node_test_}});
+  if (!count) return count.error();
+  auto write = factory.compute(kWrite, "write items", {{0, constant}, {1, node_test_}});
+  if (!write) return write.error();
+  count_[constant] = std::move(*count);
+  write_[constant] = std::move(*write);
+  return {};
+}
+
+Result<void> MapCulling::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t map_capacity,
+                                 uint32_t item_capacity, std::vector<gpu::Buffer>& retired) {
   const uint32_t maps = std::max(map_capacity, 1u), items = std::max(item_capacity, 1u);
-  struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
+  struct Need {
+    gpu::Buffer& target;
+    VkDeviceSize bytes;
+    const char* name;
+    gpu::Buffer made;
+  };
   Need needs[] = {{counts_, VkDeviceSize(maps) * shared::TraverseThreads * sizeof(glm::uvec2), "item counts", {}},
                   {totals_, VkDeviceSize(2) * maps * sizeof(uint32_t), "items of maps", {}},
                   {items_, VkDeviceSize(2) * items * sizeof(shared::CasterItem), "caster items", {}},
@@ -74,9 +86,14 @@ shared::ItemPush MapCulling::inputs(gpu::Pass& pass, const Inputs& in) const {
   pass.read(in.projection);
   pass.read(in.receiver_depth);
   pass.read(in.counters, gpu::Access::indirect_read);
-  return {.frame = pass.read(in.frame), .casters = pass.read(in.scene.caster_buffer()), .instances = pass.read(in.scene.instance_buffer()),
-          .batches = pass.read(in.scene.batch_buffer()), .order = pass.read(tree.order()), .leaves = pass.read(tree.leaves()),
-          .nodes = pass.read(tree.nodes()), .shape = in.tree_shape};
+  return {.frame = pass.read(in.frame),
+          .casters = pass.read(in.scene.caster_buffer()),
+          .instances = pass.read(in.scene.instance_buffer()),
+          .batches = pass.read(in.scene.batch_buffer()),
+          .order = pass.read(tree.order()),
+          .leaves = pass.read(tree.leaves()),
+          .nodes = pass.read(tree.nodes()),
+          .shape = in.tree_shape};
 }
 
 void MapCulling::record_count(gpu::Recorder& recorder, const Inputs& in) {
@@ -87,8 +104,8 @@ void MapCulling::record_count(gpu::Recorder& recorder, const Inputs& in) {
     push.counts = pass.write(counts_), push.totals = pass.write(totals_);
     pass.dispatch_indirect(count_[static_cast<size_t>(in.mode)], push, in.counters, kMapGroups);
   }
-  scan_.record(recorder, totals_, {in.counters, offsetof(shared::FrameCounters, maps), 2}, 2 * map_capacity_, in.counters,
-               offsetof(shared::FrameCounters, caster_pairs));
+  scan_.record(recorder, totals_, {in.counters, offsetof(shared::FrameCounters, maps), 2}, 2 * map_capacity_,
+               in.counters, offsetof(shared::FrameCounters, caster_pairs));
 }
 
 void MapCulling::record_round(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {

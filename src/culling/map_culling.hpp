@@ -12,19 +12,22 @@ class MapCulling {
  public:
   static constexpr uint32_t kModes = 5;  ///< Of umbrage::CasterCulling.
   /// node_test: NodesByLight, …; changes the time, never the items.
-  static Result<MapCulling> create(const gpu::PipelineFactory&, uint32_t node_test = shared::NodesByReceivers);
+  static Result<MapCulling> create(const gpu::PipelineFactory&, uint32_t node_test = shared::NodesByView);
+  /// Makes the pipelines of a mode, before it is recorded for the first time.
+  Result<void> prepare(const gpu::PipelineFactory&, umbrage::CasterCulling);
   /// map_capacity: as many maps as there can be, at most 65535 (groups of a dispatch). item_capacity: items a round.
-  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t map_capacity, uint32_t item_capacity, std::vector<gpu::Buffer>& retired);
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t map_capacity, uint32_t item_capacity,
+                       std::vector<gpu::Buffer>& retired);
   struct Inputs {
     const scene::GpuScene& scene;
-    const gpu::Buffer& frame;           ///< FrameRecord: names the buffers below.
-    const gpu::Buffer& counters;        ///< FrameCounters: map_groups, maps and pair_limit are read.
+    const gpu::Buffer& frame;     ///< FrameRecord: names the buffers below.
+    const gpu::Buffer& counters;  ///< FrameCounters: map_groups, maps and pair_limit are read.
     const gpu::Buffer& views;
     const gpu::Buffer& maps;
     const gpu::Buffer& projection;      ///< Receivers, of every map that is not whole; grown by filter and bias (E7).
     const gpu::Buffer& receiver_depth;  ///< Depths as ViewFootprint has them (E10).
     const gpu::Buffer& used_lights;
-    VkDeviceAddress tree_shape;         ///< In `frame`.
+    VkDeviceAddress tree_shape;  ///< In `frame`.
     umbrage::CasterCulling mode;
   };
   /// Counts items and scans them; their number goes to FrameCounters::caster_pairs.
@@ -39,7 +42,7 @@ class MapCulling {
 
  private:
   shared::ItemPush inputs(gpu::Pass&, const Inputs&) const;
-  uint32_t map_capacity_ = 0, capacity_ = 0;
+  uint32_t node_test_ = 0, map_capacity_ = 0, capacity_ = 0;
   std::array<gpu::Pipeline, kModes> count_, write_;
   gpu::PrefixSum scan_;
   gpu::Buffer counts_, totals_, items_, draw_counts_;

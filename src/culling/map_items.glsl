@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform PushBlock { ItemPush push; };
 #include "culling/walk.glsl"
 
 layout(constant_id = 0) const uint mode = CullLightVolume;
-/// What nodes are tested against besides the light (culling::NodeTest).
+/// NodesByLight, …
 layout(constant_id = 1) const uint node_test = 0u;
 
 MapRecord map;
@@ -29,7 +29,7 @@ void load_map(uint index) {
 
 uint views_of(Box box, uint height) {
   if (box_is_empty(box) || !light_meets_box(light, box)) return 0u;
-  if (height > 0u && (node_test == NodesByLight || (height > 1u && node_test != NodesByReceiversAtAllLevels))) return 1u;
+  if (height > 1u || (height == 1u && node_test == NodesByLight)) return 1u;
   Box grown = with_slack(box, first_view.origin, height == 0u ? BoxSlack : NodeSlack);
-  return faces_to_draw(map, first_view, receivers, grown, node_test == NodesByView && height > 0u ? min(mode, CullViewMask) : mode);
+  return faces_to_draw(map, first_view, receivers, grown, height > 0u && node_test == NodesByView ? min(mode, CullViewMask) : mode);
 }

@@ -110,7 +110,8 @@ UMB_FN uint faces_to_draw(MapRecord map, ShadowView first, MapReceivers receiver
   for (uint left = seeing; left != 0u; left &= left - 1u) {
     uint face = uint(findLSB(left));
     ViewFootprint seen;
-    if (project_box_to_view(first, map.kind, face, box.lo, box.hi, seen) && meets_receivers(seen, receivers, face, mode)) faces |= 1u << face;
+    if (!project_box_to_view(first, map.kind, face, box.lo, box.hi, seen)) continue;
+    if (meets_receivers(seen, receivers, face, mode)) faces |= 1u << face;
   }
   return faces;
 }

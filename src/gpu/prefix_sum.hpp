@@ -18,10 +18,12 @@ class PrefixSum {
     uint32_t scale;
   };
   /// The same for the first `counted` values, at most `capacity`; those behind them are not touched, and cost next to nothing.
-  void record(Recorder&, const Buffer& values, const DeviceCount& counted, uint32_t capacity, const Buffer& total, VkDeviceSize total_offset);
+  void record(Recorder&, const Buffer& values, const DeviceCount& counted, uint32_t capacity, const Buffer& total,
+              VkDeviceSize total_offset);
 
  private:
-  void record(Recorder&, const Buffer& values, const DeviceCount* counted, uint32_t capacity, const Buffer& total, VkDeviceSize total_offset);
+  void record(Recorder&, const Buffer& values, const DeviceCount* counted, uint32_t capacity, const Buffer& total,
+              VkDeviceSize total_offset);
   Pipeline sum_, blocks_, items_;
   Buffer sums_;
 };

@@ -15,8 +15,8 @@ struct MapTables {
   std::vector<shared::MapRecord> maps;
   std::vector<shared::ShadowView> views;
   std::vector<uint32_t> projection, receiver_depth;
-  std::vector<reference::CasterMap> plain;          // one a map
-  std::vector<std::vector<glm::vec3>> receivers;    // of each map: points that some view sees
+  std::vector<reference::CasterMap> plain;        // one a map
+  std::vector<std::vector<glm::vec3>> receivers;  // of each map: points that some view sees
 
   explicit MapTables(uint32_t cells) : grid(cells) {}
   /// Views of a light, with nothing known of receivers.
@@ -30,17 +30,17 @@ using ItemViews = std::map<std::pair<uint32_t, uint32_t>, uint32_t>;
 
 struct MapItems {
   ItemViews views;
-  std::vector<shared::CasterItem> order;   // round by round, opaque ones first
+  std::vector<shared::CasterItem> order;  // round by round, opaque ones first
   shared::FrameCounters counters{};
-  std::vector<uint32_t> lights;            // words
-  uint64_t pairs() const;                  // (batch, view)
+  std::vector<uint32_t> lights;  // words
+  uint64_t pairs() const;        // (batch, view)
   uint64_t triangles = 0;
 };
 
 /// The casters of a rig, read back.
 struct CasterTables {
   std::vector<shared::CasterRecord> casters;
-  std::vector<shared::Box> boxes;          // by caster
+  std::vector<shared::Box> boxes;  // by caster
   std::vector<shared::InstanceRecord> instances;
   std::vector<shared::BatchRecord> batches;
   shared::Box all;

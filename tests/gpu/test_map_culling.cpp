@@ -13,9 +13,10 @@ namespace {
 /// Pipelines are made once: each is a shader to compile.
 class MapCasters : public GpuTest {
  protected:
-  static culling::MapCulling& culling(uint32_t node_test = shared::NodesByReceivers) {
+  static culling::MapCulling& culling(uint32_t node_test = shared::NodesByView) {
     auto& made = culling_[node_test];
-    if (!made) made = std::make_unique<culling::MapCulling>(take(culling::MapCulling::create(gpu().factory(), node_test)));
+    if (!made)
+      made = std::make_unique<culling::MapCulling>(take(culling::MapCulling::create(gpu().factory(), node_test)));
     return *made;
   }
   static void TearDownTestSuite() {
@@ -27,25 +28,28 @@ class MapCasters : public GpuTest {
   inline static std::map<uint32_t, std::unique_ptr<culling::MapCulling>> culling_;
 };
 
-constexpr CasterCulling kModes[] = {CasterCulling::light_volume, CasterCulling::view_mask, CasterCulling::projection_map,
-                                    CasterCulling::projection_map_depth, CasterCulling::receiver_grid};
+constexpr CasterCulling kModes[] = {CasterCulling::light_volume, CasterCulling::view_mask,
+                                    CasterCulling::projection_map, CasterCulling::projection_map_depth,
+                                    CasterCulling::receiver_grid};
 
 /// mixed_scene and what is awkward about boxes and lights.
 TestScene awkward_scene() {
   TestScene scene = mixed_scene(240, 40, 21);
   const auto add = [&](uint32_t mesh, const glm::vec3& at, const glm::vec3& half) {
-    scene.instances.push_back({.mesh = mesh, .world_from_mesh = affine(glm::mat3(half.x, 0, 0, 0, half.y, 0, 0, 0, half.z), at)});
+    scene.instances.push_back(
+        {.mesh = mesh, .world_from_mesh = affine(glm::mat3(half.x, 0, 0, 0, half.y, 0, 0, 0, half.z), at)});
   };
-  const glm::vec3 light = to_glm(scene.lights[2].position), other = to_glm(scene.lights[9].position), spot = to_glm(scene.lights[3].position);
-  add(1, light, glm::vec3(0.3f));                          // the light inside
-  add(1, other + glm::vec3(0.5f), glm::vec3(0.2f));        // over three faces
-  add(1, other - glm::vec3(0.25f), glm::vec3(0.25f));      // the light on a corner
-  add(1, other + glm::vec3(0, 0.5f, 0), {0.5f, 0.1f, 0.5f});   // its edges on the borders between faces
-  add(0, glm::vec3(0), glm::vec3(300));                    // huge
-  add(1, spot, glm::vec3(1e-3f));                          // tiny, at the tip of a cone
-  add(2, light - glm::vec3(0, 0.4f, 0), glm::vec3(2));     // flat
-  add(1, {200, 200, 200}, glm::vec3(1));                   // far from everything
-  add(1, light + glm::vec3(0.1f, 0.2f, 0.3f), glm::vec3(1e-20f));   // a point
+  const glm::vec3 light = to_glm(scene.lights[2].position), other = to_glm(scene.lights[9].position),
+                  spot = to_glm(scene.lights[3].position);
+  add(1, light, glm::vec3(0.3f));                                  // the light inside
+  add(1, other + glm::vec3(0.5f), glm::vec3(0.2f));                // over three faces
+  add(1, other - glm::vec3(0.25f), glm::vec3(0.25f));              // the light on a corner
+  add(1, other + glm::vec3(0, 0.5f, 0), {0.5f, 0.1f, 0.5f});       // its edges on the borders between faces
+  add(0, glm::vec3(0), glm::vec3(300));                            // huge
+  add(1, spot, glm::vec3(1e-3f));                                  // tiny, at the tip of a cone
+  add(2, light - glm::vec3(0, 0.4f, 0), glm::vec3(2));             // flat
+  add(1, {200, 200, 200}, glm::vec3(1));                           // far from everything
+  add(1, light + glm::vec3(0.1f, 0.2f, 0.3f), glm::vec3(1e-20f));  // a point
   return scene;
 }
 
@@ -62,10 +66,13 @@ MapTables random_maps(SystemRig& rig, const CasterTables& casters, uint32_t grid
     for (uint32_t i = 0; i < slot % 4; ++i) {
       tables.add(light, slot, i == 2, casters.all);
       for (uint32_t clump = 0; clump < slot % 5; ++clump) {
-        const glm::vec3 centre = light.views == shared::ViewsOrtho
-                                     ? glm::vec3(10 * normal(engine), 2 * unit(engine), 10 * normal(engine))
-                                     : light.position_ws + glm::normalize(glm::vec3(normal(engine), normal(engine), normal(engine))) * light.range_m * unit(engine);
-        for (int point = 0; point < 40; ++point) tables.see(centre + 0.4f * glm::vec3(normal(engine), normal(engine), normal(engine)));
+        const glm::vec3 centre =
+            light.views == shared::ViewsOrtho
+                ? glm::vec3(10 * normal(engine), 2 * unit(engine), 10 * normal(engine))
+                : light.position_ws + glm::normalize(glm::vec3(normal(engine), normal(engine), normal(engine))) *
+                                          light.range_m * unit(engine);
+        for (int point = 0; point < 40; ++point)
+          tables.see(centre + 0.4f * glm::vec3(normal(engine), normal(engine), normal(engine)));
       }
     }
   }
@@ -80,17 +87,23 @@ bool is_lit(const CasterTables& casters, uint32_t caster, uint32_t light_mask) {
 enum class Allow : uint8_t { nothing, rounding };
 
 /// Views that the reference has a batch drawn to; or that it may be drawn to, when everything is a little larger.
-uint32_t reference_views(const shared::LightRecord& light, const reference::CasterMap& map, const shared::Box& box, CasterCulling mode, Allow allow) {
+uint32_t reference_views(const shared::LightRecord& light, const reference::CasterMap& map, const shared::Box& box,
+                         CasterCulling mode, Allow allow) {
   const float more = allow == Allow::rounding ? 2e-4f : 0;
   const reference::Box plain{.min = box.lo, .max = box.hi};
-  const reference::Light volume{.kind = static_cast<app::LightKind>(light.type), .position = light.position_ws, .direction = light.direction_ws,
-                                .range = light.range_m * (1 + more), .outer_cone = light.outer_cone_rad + 10 * more};
+  const reference::Light volume{.kind = static_cast<app::LightKind>(light.type),
+                                .position = light.position_ws,
+                                .direction = light.direction_ws,
+                                .range = light.range_m * (1 + more),
+                                .outer_cone = light.outer_cone_rad + 10 * more};
   if (plain.empty() || !reference::range_meets(volume, plain) || !reference::cone_may_meet(volume, plain)) return 0;
-  return reference::views_to_draw(map, plain, static_cast<reference::CasterTest>(mode), allow == Allow::rounding ? 2e-5 : 0);
+  return reference::views_to_draw(map, plain, static_cast<reference::CasterTest>(mode),
+                                  allow == Allow::rounding ? 2e-5 : 0);
 }
 
 /// The device's items are those of the reference but for pairs that rounding decides. Returns how many of these there are.
-size_t expect_as_reference(SystemRig& rig, const CasterTables& casters, const MapTables& maps, const MapItems& found, CasterCulling mode) {
+size_t expect_as_reference(SystemRig& rig, const CasterTables& casters, const MapTables& maps, const MapItems& found,
+                           CasterCulling mode) {
   const std::vector<shared::LightRecord> lights = rig.lights();
   size_t open = 0;
   for (uint32_t m = 0; m < maps.maps.size(); ++m) {
@@ -101,8 +114,10 @@ size_t expect_as_reference(SystemRig& rig, const CasterTables& casters, const Ma
       const uint32_t must = may ? reference_views(light, maps.plain[m], casters.boxes[c], mode, Allow::nothing) : 0;
       const auto item = found.views.find({c, m});
       const uint32_t drawn = item == found.views.end() ? 0 : item->second;
-      EXPECT_EQ(must & ~drawn, 0u) << "map " << m << " of light " << maps.maps[m].light << " lacks caster " << c << " in views";
-      EXPECT_EQ(drawn & ~may, 0u) << "map " << m << " of light " << maps.maps[m].light << " does not need caster " << c << " in views";
+      EXPECT_EQ(must & ~drawn, 0u) << "map " << m << " of light " << maps.maps[m].light << " lacks caster " << c
+                                   << " in views";
+      EXPECT_EQ(drawn & ~may, 0u) << "map " << m << " of light " << maps.maps[m].light << " does not need caster " << c
+                                  << " in views";
       open += static_cast<size_t>(std::popcount(may & ~must));
     }
   }
@@ -126,8 +141,10 @@ TEST_F(MapCasters, AreThoseOfTheReference) {
     }
     for (size_t i = 1; i < found.size(); ++i) {
       // On a grid of one cell the last two are the same.
-      if (i == 4 && grid == 1) EXPECT_EQ(found[i].pairs(), found[i - 1].pairs());
-      else EXPECT_LT(found[i].pairs(), found[i - 1].pairs()) << "mode " << i << ", grid " << grid;
+      if (i == 4 && grid == 1)
+        EXPECT_EQ(found[i].pairs(), found[i - 1].pairs());
+      else
+        EXPECT_LT(found[i].pairs(), found[i - 1].pairs()) << "mode " << i << ", grid " << grid;
       for (const auto& [item, views] : found[i].views) {
         const auto before = found[i - 1].views.find(item);
         ASSERT_TRUE(before != found[i - 1].views.end() && (views & ~before->second) == 0);
@@ -140,7 +157,8 @@ TEST_F(MapCasters, AreThoseOfTheReference) {
 bool reaches(const shared::LightRecord& light, const glm::vec3& receiver) {
   if (light.type == shared::LightDirectional) return true;
   const glm::vec3 way = receiver - light.position_ws;
-  return glm::length(way) <= light.range_m && (light.type != shared::LightSpot || glm::dot(way, light.direction_ws) >= light.cos_outer * glm::length(way));
+  return glm::length(way) <= light.range_m &&
+         (light.type != shared::LightSpot || glm::dot(way, light.direction_ws) >= light.cos_outer * glm::length(way));
 }
 
 TEST_F(MapCasters, NeverLackWhatShadowsAReceiver) {
@@ -160,7 +178,8 @@ TEST_F(MapCasters, NeverLackWhatShadowsAReceiver) {
         for (const glm::vec3& receiver : maps.receivers[m]) {
           if (!reaches(light, receiver)) continue;
           for (int step = 1; step < 12; ++step) {
-            const glm::vec3 towards = light.type == shared::LightDirectional ? -light.direction_ws * 30.0f : light.position_ws - receiver;
+            const glm::vec3 towards =
+                light.type == shared::LightDirectional ? -light.direction_ws * 30.0f : light.position_ws - receiver;
             const glm::vec3 at = receiver + towards * (float(step) / 12.5f);
             for (uint32_t c = 0; c < casters.boxes.size(); ++c) {
               const shared::Box& box = casters.boxes[c];
@@ -169,8 +188,10 @@ TEST_F(MapCasters, NeverLackWhatShadowsAReceiver) {
               ++between;
               const auto item = found.views.find({c, m});
               ASSERT_TRUE(item != found.views.end()) << "mode " << int(mode) << ", map " << m << ", caster " << c;
-              const uint32_t view = maps.maps[m].kind == shared::ViewsCube ? shared::face_of_direction(receiver - light.position_ws) : 0;
-              ASSERT_TRUE(item->second >> view & 1) << "mode " << int(mode) << ", map " << m << ", caster " << c << ", view " << view;
+              const uint32_t view =
+                  maps.maps[m].kind == shared::ViewsCube ? shared::face_of_direction(receiver - light.position_ws) : 0;
+              ASSERT_TRUE(item->second >> view & 1)
+                  << "mode " << int(mode) << ", map " << m << ", caster " << c << ", view " << view;
             }
           }
         }
@@ -194,12 +215,15 @@ TEST_F(MapCasters, AreTheSameWhateverNodesAreTestedAgainst) {
   };
   for (const CasterCulling mode : kModes) {
     const auto plain = words(find_items(rig, culling(shared::NodesByLight), casters, maps, {.mode = mode}));
-    for (const uint32_t test : {shared::NodesByLight, shared::NodesByView, shared::NodesByReceivers, shared::NodesByReceiversAtAllLevels})
-      EXPECT_EQ(words(find_items(rig, culling(test), casters, maps, {.mode = mode})), plain) << "mode " << int(mode) << ", test " << test;
+    for (const uint32_t test : {shared::NodesByLight, shared::NodesByView, shared::NodesByReceivers})
+      EXPECT_EQ(words(find_items(rig, culling(test), casters, maps, {.mode = mode})), plain)
+          << "mode " << int(mode) << ", test " << test;
     // In rounds, too, they come in the same order.
     const auto count = static_cast<uint32_t>(plain.size());
     for (const uint32_t capacity : {97u, count / 2, count - 1, count})
-      EXPECT_EQ(words(find_items(rig, culling(), casters, maps, {.mode = mode, .capacity = capacity, .rounds = (count + capacity - 1) / capacity})), plain)
+      EXPECT_EQ(words(find_items(rig, culling(), casters, maps,
+                                 {.mode = mode, .capacity = capacity, .rounds = (count + capacity - 1) / capacity})),
+                plain)
           << "mode " << int(mode) << ", " << capacity << " items a round";
   }
 }
@@ -215,13 +239,15 @@ TEST_F(MapCasters, BeyondTheRoundsAreReported) {
   EXPECT_EQ(std::count(all.lights.begin(), all.lights.end(), shared::LightIsUsed), std::ptrdiff_t(all.lights.size()));
   const auto count = static_cast<uint32_t>(all.order.size());
   for (const uint32_t capacity : {count / 7, count / 3, count - 1}) {
-    const MapItems some = find_items(rig, culling(), casters, maps, {.mode = CasterCulling::view_mask, .capacity = capacity});
+    const MapItems some =
+        find_items(rig, culling(), casters, maps, {.mode = CasterCulling::view_mask, .capacity = capacity});
     EXPECT_EQ(some.counters.caster_pairs, count);
     std::set<uint32_t> lacking;
     for (const shared::CasterItem& item : all.order)
       if (!some.views.count({item.caster, item.map})) lacking.insert(maps.maps[item.map].light);
     for (uint32_t slot = 0; slot < some.lights.size(); ++slot)
-      EXPECT_EQ(some.lights[slot], shared::LightIsUsed | (lacking.count(slot) ? shared::LightLacksCasters : 0)) << "light " << slot;
+      EXPECT_EQ(some.lights[slot], shared::LightIsUsed | (lacking.count(slot) ? shared::LightLacksCasters : 0))
+          << "light " << slot;
     EXPECT_FALSE(lacking.empty());
   }
 }
