@@ -2,7 +2,6 @@
 // What each reads and writes is declared where it is recorded, and barriers follow from that (gpu/recorder.hpp).
 #include "frame.hpp"
 
-#include <array>
 
 namespace umbrage {
 
@@ -18,24 +17,55 @@ void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
   // Clusters → lights of each, through the light tree; which lights are used at all (O1).
   clusters.record_lights(recorder, block, counters, scene, light_shape(), plan.settings.light_assignment);
 
-  // Used lights → shadow views and their tiles.
-  store.record_views(recorder, block, counters, scene, clusters.used_lights(), plan.all_lights);
+  // Used lights → their shadow views.
+  views.record(recorder, block, counters, scene, clusters.used_lights(), plan.all_lights);
 
-  // Views → the batches each needs (O6) → depth (O12), by one multi-draw or a pass per view.
-  const culling::CasterCulling::Inputs cull{scene, store.views(), counters, clusters.used_lights(), block, caster_shape(), plan.settings.caster_culling};
-  const raster::Writers::Inputs write{scene, store, culling, cull, max_draws};
-  if (scene.light_slots() > 0 && plan.settings.writer == Writer::multi_draw) {
-    culling.record_count(recorder, cull);
-    writers.record_multi_draw(recorder, write, plan.caster_rounds);
-  } else if (scene.light_slots() > 0) {
-    writers.record_traditional(recorder, write);
-  }
+  if (scene.light_slots() > 0 && plan.store == Store::page_pool) record_virtual_maps(recorder, plan);
+  if (scene.light_slots() > 0 && plan.store == Store::fixed_cubes) record_fixed_cubes(recorder, plan);
 
   // Everything a lookup reads → the host's shading.
-  const auto cluster_buffers = clusters.published();
-  std::array<const gpu::Buffer*, cluster_buffers.size() + 5> published{&block, &counters, &scene.light_buffer(), &scene.light_order_buffer(), &store.views()};
-  std::copy(cluster_buffers.begin(), cluster_buffers.end(), published.begin() + 5);
+  std::vector<const gpu::Buffer*>& published = published_;
+  published.assign({&block, &counters, &scene.light_buffer(), &scene.light_order_buffer(), &views.buffer()});
+  for (const gpu::Buffer* buffer : clusters.published()) published.push_back(buffer);
+  if (plan.store == Store::page_pool) {
+    for (const gpu::Buffer* buffer : maps.published()) published.push_back(buffer);
+    published.push_back(&pool.pool());
+  }
   recorder.publish(published, plan.consumer_stages, &store.atlas());
+}
+
+void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) {
+  // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
+  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, pool.capacity_units(), plan.all_lights});
+
+  // Marked pages → places in the pool, cleared.
+  pool.record(recorder, maps, block, counters);
+
+  // Maps → the batches whose shadows their receivers can see (O5…O7) → depth.
+  const culling::MapCulling::Inputs cull{scene, block, counters, views.buffer(), maps.maps(), maps.projection(), maps.receiver_depth(),
+                                         clusters.used_lights(), caster_shape(), plan.settings.caster_culling};
+  map_culling.record_count(recorder, cull);
+  for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
+    map_culling.record_round(recorder, cull, round);
+    gpu::Scope scope(recorder, "raster");
+    const raster::PageWriterInputs write{scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(),
+                                         map_culling.items(), map_culling.draw_counts(), map_culling.capacity(),
+                                         plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
+    if (plan.settings.writer == Writer::fragments) page_fragments.record(recorder, write, plan.settings.max_resolution);
+    else page_raster.record(recorder, write);
+  }
+}
+
+void Frame::record_fixed_cubes(gpu::Recorder& recorder, const FramePlan& plan) {
+  // Views → the batches each needs (O6) → depth (O12), by one multi-draw or a pass per view.
+  const culling::CasterCulling::Inputs cull{scene, views.buffer(), counters, clusters.used_lights(), block, caster_shape(), plan.settings.caster_culling};
+  const raster::Writers::Inputs write{scene, store, culling, cull, max_draws};
+  if (plan.settings.writer == Writer::traditional) {
+    writers.record_traditional(recorder, write);
+    return;
+  }
+  culling.record_count(recorder, cull);
+  writers.record_multi_draw(recorder, write, plan.caster_rounds);
 }
 
 void Frame::record_statistics(gpu::Recorder& recorder, const gpu::Buffer& target) {
@@ -46,9 +76,9 @@ void Frame::record_statistics(gpu::Recorder& recorder, const gpu::Buffer& target
     pass.read(clusters.used_lights(), gpu::Access::transfer_read);
     pass.write(target, gpu::Access::transfer_write);
     const VkCommandBuffer commands = pass.commands();
-    const VkBufferCopy count{0, 0, sizeof(shared::FrameCounters)};
+    const VkBufferCopy count{0, offsetof(shared::FrameReport, counters), sizeof(shared::FrameCounters)};
     vk.vkCmdCopyBuffer(commands, counters.handle(), target.handle(), 1, &count);
-    const VkBufferCopy lights{0, sizeof(shared::FrameCounters), scene.light_slots() * sizeof(uint32_t)};
+    const VkBufferCopy lights{0, sizeof(shared::FrameReport), scene.light_slots() * sizeof(uint32_t)};
     if (lights.size) vk.vkCmdCopyBuffer(commands, clusters.used_lights().handle(), target.handle(), 1, &lights);
   }
   gpu::Pass pass = recorder.pass("statistics to host");
@@ -67,11 +97,20 @@ Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Mem
   const auto buffer = [&](VkDeviceSize bytes, const char* name) { return gpu::Buffer::create(device, memory, bytes, gpu::MemoryKind::device, name); };
   if (auto ok = make(frame->scene_pipelines, scene::ScenePipelines::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->clusters, clusters::Clusters::create(factory)); !ok) return ok.error();
-  if (auto ok = make(frame->store, store::FixedCubes::create(factory)); !ok) return ok.error();
-  if (auto ok = make(frame->culling, culling::CasterCulling::create(factory)); !ok) return ok.error();
-  if (auto ok = make(frame->writers, raster::Writers::create(factory)); !ok) return ok.error();
+  if (auto ok = make(frame->views, maps::Views::create(factory)); !ok) return ok.error();
+  if (settings.store == Store::page_pool) {
+    if (auto ok = make(frame->maps, maps::Maps::create(factory)); !ok) return ok.error();
+    if (auto ok = make(frame->pool, store::PagePool::create(factory)); !ok) return ok.error();
+    if (auto ok = make(frame->map_culling, culling::MapCulling::create(factory)); !ok) return ok.error();
+    if (auto ok = make(frame->page_raster, raster::PageRaster::create(factory)); !ok) return ok.error();
+    if (auto ok = make(frame->page_fragments, raster::PageFragments::create(factory)); !ok) return ok.error();
+  } else {
+    if (auto ok = make(frame->culling, culling::CasterCulling::create(factory)); !ok) return ok.error();
+    if (auto ok = make(frame->writers, raster::Writers::create(factory)); !ok) return ok.error();
+  }
   if (auto ok = make(frame->block, buffer(sizeof(FrameBlock), "frame")); !ok) return ok.error();
   if (auto ok = make(frame->counters, buffer(sizeof(shared::FrameCounters), "counters")); !ok) return ok.error();
+  frame->published_.reserve(32);
   frame->max_draws = device.limits().max_draw_indirect_count;
   return frame;
 }

@@ -1,17 +1,24 @@
 // One frame on the device: the stages and what passes between them.
 #pragma once
+#include <vector>
+
 #include "clusters/clusters.hpp"
 #include "culling/caster_culling.hpp"
+#include "culling/map_culling.hpp"
 #include "gpu/recorder.hpp"
+#include "raster/page_fragments.hpp"
+#include "raster/page_raster.hpp"
 #include "raster/writers.hpp"
 #include "scene/gpu_scene.hpp"
 #include "store/fixed_cubes.hpp"
+#include "store/page_pool.hpp"
 
 namespace umbrage {
 
 /// What begin_frame decided for the frame being recorded.
 struct FramePlan {
   FrameSettings settings;
+  Store store = Store::page_pool;
   glm::uvec2 tiles{0};
   NormalEncoding normal_encoding = NormalEncoding::none;
   bool all_lights = false;
@@ -33,7 +40,7 @@ struct Frame {
   void record_scene(gpu::Recorder&, const FramePlan&, gpu::Uploader&, gpu::RetireQueue&);
   /// 3…11: after the host's depth.
   void record_shadows(gpu::Recorder&, const FramePlan&);
-  /// Counters and light states for the host, into `target` (FrameCounters, then a word a light slot).
+  /// Counters and light states for the host, into `target` (FrameReport, then a word a light slot).
   void record_statistics(gpu::Recorder&, const gpu::Buffer& target);
 
   VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }
@@ -42,6 +49,14 @@ struct Frame {
   scene::ScenePipelines scene_pipelines;
   scene::GpuScene scene;
   clusters::Clusters clusters;
+  maps::Views views;
+  // Store::page_pool
+  maps::Maps maps;
+  store::PagePool pool;
+  culling::MapCulling map_culling;
+  raster::PageRaster page_raster;
+  raster::PageFragments page_fragments;
+  // Store::fixed_cubes
   store::FixedCubes store;
   culling::CasterCulling culling;
   raster::Writers writers;
@@ -49,6 +64,9 @@ struct Frame {
   uint32_t max_draws = 0;
 
  private:
+  void record_virtual_maps(gpu::Recorder&, const FramePlan&);
+  void record_fixed_cubes(gpu::Recorder&, const FramePlan&);
+  std::vector<const gpu::Buffer*> published_;   // kept, so that recording allocates nothing
   Frame(const gpu::Device& device, gpu::Memory& memory, const StaticSettings& settings) : scene(device, memory, settings) {}
 };
 

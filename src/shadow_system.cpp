@@ -102,14 +102,15 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.current->serial = s.last_serial = desc.serial;
     s.next_slot = (s.next_slot + 1) % static_cast<uint32_t>(s.slots.size());
     if (s.edited) s.edit_serial = desc.serial, s.edited = false, s.caster_pairs_known = false;
-    s.plan = {.settings = desc.settings, .tiles = record->tiles, .normal_encoding = camera.normal_encoding,
+    s.plan = {.settings = desc.settings, .store = s.settings.store, .tiles = record->tiles, .normal_encoding = camera.normal_encoding,
               .all_lights = camera.other_receivers, .caster_rounds = s.plan_rounds(), .consumer_stages = desc.consumer_stages, .serial = desc.serial};
     FrameBlock block{};
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
-    s.fill_block(block, *record);
+    s.fill_block(block, *record, *s.current);
+    std::memset(s.current->statistics.mapped(), 0, sizeof(shared::TapCounts));
     s.current->uploader.copy(s.frame->block, 0, &block, sizeof block);
     shared::FrameCounters counters{};
-    counters.pair_limit = s.plan.caster_rounds * s.frame->culling.capacity();
+    counters.pair_limit = s.plan.caster_rounds * s.caster_pairs_per_round();
     s.current->uploader.copy(s.frame->counters, 0, &counters, sizeof counters);
     s.write_sets(*s.current, camera);
     s.current->without_map = s.without_map;

@@ -75,8 +75,9 @@ void ShadowSystem::State::collect(uint64_t completed_serial) {
 }
 
 void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
-  shared::FrameCounters counters;
-  std::memcpy(&counters, slot.statistics.mapped(), sizeof counters);
+  shared::FrameReport report;
+  std::memcpy(&report, slot.statistics.mapped(), sizeof report);
+  const shared::FrameCounters& counters = report.counters;
   statistics = slot.known;
   statistics.serial = slot.serial;
   statistics.passes = {pass_times.data(), slot.timers.read(pass_times)};
@@ -89,16 +90,20 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   statistics.triangles_drawn = uint64_t(counters.triangles_drawn_high) << 32 | counters.triangles_drawn_low;
   statistics.cpu_record_ms = slot.cpu_record_ms;
   degraded = slot.without_map;
-  const std::byte* words = slot.statistics.mapped() + sizeof counters;
+  if (settings.store == Store::page_pool) read_page_statistics(report);
+  const std::byte* words = slot.statistics.mapped() + sizeof report;
   for (uint32_t light = 0; light < slot.light_slots; ++light) {
     uint32_t word;
     std::memcpy(&word, words + light * sizeof word, sizeof word);
+    if (word >> shared::LightShiftAt)
+      degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::coarser,
+                          uint64_t(counters.pool_units_asked - std::min(counters.pool_units, counters.pool_units_asked)) * shared::PoolUnit * sizeof(uint32_t)});
     if (word & shared::LightLacksCasters)
       degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::casters_missing,
                           (counters.caster_pairs - counters.pair_limit) * (sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand))});
   }
-  statistics.overflows = uint64_t(counters.clusters_found > counters.clusters) + uint64_t(counters.all_lights_used != 0) +
-                         uint64_t(counters.caster_pairs > counters.pair_limit);
+  statistics.overflows += uint64_t(counters.clusters_found > counters.clusters) + uint64_t(counters.all_lights_used != 0) +
+                          uint64_t(counters.caster_pairs > counters.pair_limit);
   statistics.lights_degraded = static_cast<uint32_t>(degraded.size());
 
   if (counters.pairs_found > pair_capacity) pair_capacity = counters.pairs_found + counters.pairs_found / 4;
@@ -108,12 +113,35 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   }
 }
 
+void ShadowSystem::State::read_page_statistics(const shared::FrameReport& report) {
+  const shared::FrameCounters& counters = report.counters;
+  statistics.shadow_maps = counters.maps;
+  statistics.shadow_views = counters.receiver_views;
+  statistics.pages_requested = counters.pages_requested;
+  statistics.pages_resident = statistics.pages_rendered = counters.pages;
+  statistics.texels_requested = uint64_t(counters.pool_units_asked) * shared::PoolUnit;
+  statistics.texels_allocated = uint64_t(counters.pool_units) * shared::PoolUnit;
+  statistics.unbacked_taps = report.taps.unbacked;
+  statistics.unmarked_taps = report.taps.unmarked;
+  const auto grown = [](uint32_t have, uint32_t found) { return found > have ? found + found / 4 : have; };
+  statistics.overflows += uint64_t(counters.maps_found > map_sizes.maps) + uint64_t(counters.page_words_found > map_sizes.words) +
+                          uint64_t(counters.receiver_views_found > map_sizes.receiver_views);
+  map_sizes.maps = grown(map_sizes.maps, counters.maps_found);
+  map_sizes.words = grown(map_sizes.words, counters.page_words_found);
+  map_sizes.receiver_views = grown(map_sizes.receiver_views, counters.receiver_views_found);
+}
+
 Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settings) {
   const std::array<uint32_t, 2> wanted{frame_settings.min_resolution, frame_settings.max_resolution};
   if (!frame->scene.lights_edited() && wanted == laid_out_for) return {};
   std::vector<uint32_t> changed;
-  layout = store::lay_out(frame->scene.lights(), uint64_t(settings.budget_mib) << 20, device->limits().max_image_side, frame_settings,
-                          changed, without_map);
+  const uint64_t budget_bytes = uint64_t(settings.budget_mib) << 20;
+  if (settings.store == Store::page_pool) {
+    views = store::number_views(frame->scene.lights(), budget_bytes, changed, without_map);
+  } else {
+    layout = store::lay_out(frame->scene.lights(), budget_bytes, device->limits().max_image_side, frame_settings, changed, without_map);
+    views = layout.views;
+  }
   for (const uint32_t slot : changed) frame->scene.light_changed(slot);
   laid_out_for = wanted;
   return {};
@@ -123,21 +151,11 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   scene::GpuScene& scene = frame->scene;
   const uint32_t light_slots = scene.light_slots();
   if (auto ok = frame->clusters.reserve(*device, *memory, camera.tiles, pair_capacity, light_slots, outgrown); !ok) return ok.error();
+  if (auto ok = frame->views.reserve(*device, *memory, views, outgrown); !ok) return ok.error();
+  // The include names the atlas, so that there is one in any case.
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
-
-  // Room for half as many pairs again as any frame has needed, so that one round does; for what nothing is known of yet, as
-  // many as the rounds demand.
-  const uint64_t most_pairs = uint64_t(layout.views) * std::max(scene.casters(), 1u);
-  const uint64_t expected = caster_pairs_known ? std::min<uint64_t>(caster_pairs_seen * 3 / 2, kMaxGrownPairs) : (most_pairs + kMaxRounds - 1) / kMaxRounds;
-  const uint64_t needed = std::min(most_pairs, std::max<uint64_t>(settings.max_caster_pairs, expected));
-  const uint32_t most_at_once = std::min(1u << 20, device->limits().max_draw_indirect_count);
-  const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(needed, 1024, most_at_once));
-  const bool traditional = desc.settings.writer == Writer::traditional;
-  if (auto ok = frame->culling.reserve(*device, *memory, light_slots, std::max(capacity, frame->culling.capacity()),
-                                       traditional ? raster::kViewsAtOnce : 0, scene.caster_slots(), outgrown); !ok)
-    return ok.error();
-
-  const VkDeviceSize bytes = sizeof(shared::FrameCounters) + light_slots * sizeof(uint32_t);
+  if (auto ok = settings.store == Store::page_pool ? reserve_page_pool(desc) : reserve_fixed_cubes(desc); !ok) return ok.error();
+  const VkDeviceSize bytes = sizeof(shared::FrameReport) + light_slots * sizeof(uint32_t);
   if (!slot.statistics || slot.statistics.size() < bytes) {
     auto made = gpu::Buffer::create(*device, *memory, 2 * bytes, gpu::MemoryKind::readback, "statistics");
     if (!made) return made.error();
@@ -148,23 +166,74 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   known = {};
   known.lights = scene.lights().count();
   known.casters = scene.casters();
-  known.map_resolution = layout.resolution;
-  known.texels_allocated = frame->store.texels();
   known.shadow_memory_bytes = frame->store.texels() * sizeof(uint32_t);
+  if (settings.store == Store::page_pool) {
+    known.shadow_memory_bytes = frame->pool.pool().size();
+  } else {
+    known.map_resolution = layout.resolution;
+    known.texels_allocated = frame->store.texels();
+    known.shadow_maps = layout.maps;
+  }
   known.table_memory_bytes = memory->bytes_in_use(gpu::MemoryKind::device) - std::min(memory->bytes_in_use(gpu::MemoryKind::device), known.shadow_memory_bytes);
-  known.shadow_maps = layout.maps;
   return {};
 }
 
+Result<void> ShadowSystem::State::reserve_fixed_cubes(const FrameDesc& desc) {
+  const scene::GpuScene& scene = frame->scene;
+  const uint64_t most_at_once = std::min(1u << 20, device->limits().max_draw_indirect_count);
+  const auto capacity = static_cast<uint32_t>(std::clamp<uint64_t>(caster_capacity(), 1024, most_at_once));
+  const bool traditional = desc.settings.writer == Writer::traditional;
+  return frame->culling.reserve(*device, *memory, scene.light_slots(), std::max(capacity, frame->culling.capacity()),
+                                traditional ? raster::kViewsAtOnce : 0, scene.caster_slots(), outgrown);
+}
+
+Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
+  const uint32_t light_slots = frame->scene.light_slots();
+  // At least what every light's coarsest map and whole map take; more from what frames report.
+  map_sizes.light_slots = std::max(map_sizes.light_slots, light_slots);
+  map_sizes.pairs = frame->clusters.pair_capacity();
+  map_sizes.maps = std::max({map_sizes.maps, 3 * light_slots, 64u});
+  map_sizes.receiver_views = std::max({map_sizes.receiver_views, 3 * views, 384u});
+  map_sizes.words = std::max({map_sizes.words, 8 * views, 4096u});
+  map_sizes.receiver_grid = desc.settings.receiver_grid;
+  const auto grid_bytes = [&] { return uint64_t(map_sizes.receiver_views) * map_sizes.receiver_grid * map_sizes.receiver_grid * sizeof(uint32_t); };
+  while (map_sizes.receiver_grid > 1 && grid_bytes() > kMaxGridBytes) map_sizes.receiver_grid /= 2;
+  if (auto ok = frame->maps.reserve(*device, *memory, map_sizes, outgrown); !ok) return ok;
+  if (auto ok = frame->pool.reserve(*device, *memory, uint64_t(settings.budget_mib) << 20, map_sizes.words, outgrown); !ok) return ok;
+  const uint32_t capacity = std::max({caster_capacity(), frame->map_culling.capacity(), 1024u});
+  if (auto ok = frame->map_culling.reserve(*device, *memory, map_sizes.maps, capacity, outgrown); !ok) return ok;
+  if (auto ok = frame->map_culling.prepare(*pipelines, desc.settings.caster_culling); !ok) return ok;
+  if (desc.settings.writer == Writer::fragments) return frame->page_fragments.reserve(*device, *memory);
+  return frame->page_raster.reserve(*device, *memory, kLargeTriangles, uint64_t(settings.budget_mib) << 20, outgrown);
+}
+
+/// (batch, view) pairs of fixed cubes, (batch, map) pairs of the page pool.
+uint64_t ShadowSystem::State::most_caster_pairs() const {
+  const uint64_t targets = settings.store == Store::page_pool ? map_sizes.maps : views;
+  return targets * std::max(frame->scene.casters(), 1u);
+}
+
+/// Room for half as many pairs again as any frame has needed, so that one round does; for what nothing is known of yet, as
+/// many as the rounds demand.
+uint32_t ShadowSystem::State::caster_capacity() const {
+  const uint64_t most = most_caster_pairs();
+  const uint64_t expected = caster_pairs_known ? std::min<uint64_t>(caster_pairs_seen * 3 / 2, kMaxGrownPairs) : (most + kMaxRounds - 1) / kMaxRounds;
+  return static_cast<uint32_t>(std::min<uint64_t>({most, std::max<uint64_t>(settings.max_caster_pairs, expected), UINT32_MAX / 4}));
+}
+
+uint32_t ShadowSystem::State::caster_pairs_per_round() const {
+  return settings.store == Store::page_pool ? frame->map_culling.capacity() : frame->culling.capacity();
+}
+
 uint32_t ShadowSystem::State::plan_rounds() {
-  const uint64_t capacity = frame->culling.capacity();
-  const uint64_t most = uint64_t(layout.views) * frame->scene.casters();
+  const uint64_t capacity = caster_pairs_per_round();
+  const uint64_t most = most_caster_pairs();
   // Half as many again as any frame has needed: movement adds pairs. With nothing known, the most there can be.
   const uint64_t expected = caster_pairs_known ? std::min(most, caster_pairs_seen * 3 / 2) : most;
   return static_cast<uint32_t>(std::clamp<uint64_t>((expected + capacity - 1) / capacity, 1, kMaxRounds));
 }
 
-void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraRecord& camera) const {
+void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraRecord& camera, const FrameSlot& slot) const {
   shared::FrameRecord& record = block.record;
   record.camera = camera;
   record.lights = frame->scene.light_buffer().address();
@@ -173,7 +242,14 @@ void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraReco
   record.light_count = frame->scene.lights().count();
   record.directional_count = frame->scene.directional_lights();
   frame->clusters.fill(record);
+  frame->views.fill(record);
   frame->store.fill(record);
+  record.store = settings.store == Store::page_pool ? shared::StorePool : shared::StoreAtlas;
+  record.tap_counts = slot.statistics.address();
+  if (settings.store == Store::page_pool) {
+    frame->maps.fill(record);
+    frame->pool.fill(record);
+  }
   block.caster_shape = scene::tree_shape(frame->scene.caster_slots());
   block.light_shape = scene::tree_shape(frame->scene.light_slots());
 }

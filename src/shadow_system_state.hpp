@@ -14,7 +14,7 @@ namespace umbrage {
 struct FrameSlot {
   gpu::Uploader uploader;
   gpu::FrameTimers timers;
-  gpu::Buffer statistics;           // readback: FrameCounters, then a word a light slot
+  gpu::Buffer statistics;           // readback: FrameReport, then a word a light slot
   VkDescriptorSet frame_set = VK_NULL_HANDLE, host_set = VK_NULL_HANDLE;
   uint64_t serial = 0;              // 0: never used
   uint32_t light_slots = 0;
@@ -27,17 +27,26 @@ struct ShadowSystem::State {
   static constexpr uint32_t kMaxRounds = 128;
   static constexpr uint64_t kMaxGrownPairs = 1u << 19;   // 80 MB; more pairs take more rounds
 
+  static constexpr uint64_t kMaxGridBytes = 64u << 20;   // of farthest receivers; beyond it their grids are coarser
+  static constexpr uint32_t kLargeTriangles = 1u << 16;  // queued at once; more are drawn by a thread each
+
   ~State();
   Result<void> create_sets(uint32_t frames_in_flight);
   Result<void> create_host_layout();
   Result<FrameSlot*> free_slot(const FrameDesc&);
   void collect(uint64_t completed_serial);
   void read_statistics(const FrameSlot&);
+  void read_page_statistics(const shared::FrameReport&);
   Result<void> lay_out_maps(const FrameSettings&);
   Result<void> reserve(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
+  Result<void> reserve_fixed_cubes(const FrameDesc&);
+  Result<void> reserve_page_pool(const FrameDesc&);
+  uint64_t most_caster_pairs() const;
+  uint32_t caster_capacity() const;
+  uint32_t caster_pairs_per_round() const;
   uint32_t plan_rounds();
   void write_sets(FrameSlot&, const CameraDesc&);
-  void fill_block(FrameBlock&, const shared::CameraRecord&) const;
+  void fill_block(FrameBlock&, const shared::CameraRecord&, const FrameSlot&) const;
   gpu::Recorder recorder(VkCommandBuffer, FrameSlot&);
 
   StaticSettings settings;
@@ -54,7 +63,9 @@ struct ShadowSystem::State {
   uint32_t next_slot = 0;
   FrameSlot* current = nullptr;     // being recorded
   FramePlan plan;
-  store::AtlasLayout layout;
+  store::AtlasLayout layout;        // fixed cubes
+  uint32_t views = 0;               // of all lights
+  maps::Maps::Sizes map_sizes;      // page pool: grown from what frames report
   std::array<uint32_t, 2> laid_out_for{};   // min and max resolution
   std::vector<LightStatus> without_map;
   std::vector<gpu::Buffer> outgrown;

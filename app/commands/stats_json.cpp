@@ -39,8 +39,10 @@ void add_counts(Json& document, const FrameReport& report) {
   document["shadow_maps"] = statistics.shadow_maps;
   document["shadow_views"] = statistics.shadow_views;
   document["map_resolution"] = statistics.map_resolution;
-  // Cube maps of one size are not made of pages.
-  for (const char* key : {"pages_requested", "pages_resident", "pages_rendered"}) document[key] = 0;
+  document["pages_requested"] = statistics.pages_requested;
+  document["pages_resident"] = statistics.pages_resident;
+  document["pages_rendered"] = statistics.pages_rendered;
+  document["texels_requested"] = statistics.texels_requested;
   document["texels_allocated"] = statistics.texels_allocated;
   document["casters"] = statistics.casters;
   document["caster_pairs"] = statistics.caster_pairs;
@@ -48,8 +50,8 @@ void add_counts(Json& document, const FrameReport& report) {
   document["triangles_drawn"] = statistics.triangles_drawn;
   document["shadow_memory_bytes"] = statistics.shadow_memory_bytes;
   document["table_memory_bytes"] = statistics.table_memory_bytes;
-  document["unbacked_taps"] = report.unbacked_taps;
-  document["unmarked_taps"] = report.unmarked_taps;
+  document["unbacked_taps"] = statistics.unbacked_taps;
+  document["unmarked_taps"] = statistics.unmarked_taps;
   document["overflows"] = statistics.overflows;
   document["lights_degraded"] = statistics.lights_degraded;
   Json degraded = Json::array();

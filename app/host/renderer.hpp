@@ -58,7 +58,6 @@ struct FrameReport {
   double cpu_record_ms = 0;         ///< The library's recording.
   std::vector<std::pair<std::string, double>> passes;  ///< GPU ms: the host's and the library's, in order.
   uint64_t lighting_computations = 0;   ///< Lights summed over pixels.
-  uint64_t unbacked_taps = 0, unmarked_taps = 0;
   umbrage::Statistics statistics;   ///< Its spans are not valid here.
   std::vector<umbrage::LightStatus> degraded;
 };

@@ -17,6 +17,26 @@ enum class LightAssignment : uint8_t {
   hierarchy,    ///< Through the 32-way light tree.
   brute_force,  ///< Every light against every cluster; same lists, for measurements.
 };
+enum class Store : uint8_t {
+  fixed_cubes,  ///< One map per light, all of one resolution, in a depth atlas: the baseline of today's engines.
+  page_pool,    ///< Virtual maps in a software page table over one pool, allocated on the device.
+};
+enum class MapLayout : uint8_t {
+  exact,        ///< O8: up to maps_per_light maps per light, each as fine as its finest request, rounded up to whole pages.
+  levels,       ///< Powers of two: the limit of many maps per light.
+};
+enum class ResolutionForm : uint8_t {
+  paper,        ///< O2 as printed.
+  corrected,    ///< E2, E3: no texel wider than a pixel.
+};
+enum class HistogramBuckets : uint8_t {
+  logarithmic,  ///< E8: each bucket half as fine as the one before.
+  linear,
+};
+enum class FacingAway : uint8_t {
+  kept,
+  dropped,      ///< Cluster/light pairs whose normals all face away ask for nothing.
+};
 /// Each drops what the one before does and more. The last three need virtual shadow maps; with fixed cubes they are view_mask.
 enum class CasterCulling : uint8_t {
   light_volume,          ///< Batches whose box meets the light's volume go to all of its views.
@@ -26,13 +46,17 @@ enum class CasterCulling : uint8_t {
   receiver_grid,         ///< The same tile by tile, on a grid of farthest receivers (O22).
 };
 enum class Writer : uint8_t {
-  traditional,  ///< One render pass per view; the batches are the GPU's, the passes are the CPU's.
-  multi_draw,   ///< One render pass, one GPU-written multi-draw for everything.
+  automatic,    ///< compute for the page pool, multi_draw for fixed cubes.
+  traditional,  ///< Fixed cubes: one render pass per view; the batches are the GPU's, the passes are the CPU's.
+  multi_draw,   ///< Fixed cubes: one render pass, one GPU-written multi-draw for everything.
+  compute,      ///< Page pool: triangles drawn by compute shaders.
+  fragments,    ///< Page pool: one multi-draw without attachments, an atomic for every fragment.
 };
 
 /// Fixed for the life of a system: what sizes its memory.
 struct StaticSettings {
   uint32_t frames_in_flight = 2;             ///< 1…4.
+  Store store = Store::page_pool;
   uint32_t budget_mib = 256;                 ///< Depth texels, 4…16384. Tables are reported apart.
   uint32_t batch_triangles = 128;            ///< O4: at most this many a batch, 32…1024.
   uint32_t max_cluster_light_pairs = 1 << 20;///< First size of the list; it grows to what the frames need.
@@ -42,11 +66,19 @@ struct StaticSettings {
 /// May change every frame.
 struct FrameSettings {
   ClusterBounds cluster_bounds = ClusterBounds::explicit_bits;
+  MapLayout layout = MapLayout::levels;
+  ResolutionForm resolution = ResolutionForm::corrected;
+  HistogramBuckets buckets = HistogramBuckets::logarithmic;  ///< Of the exact layout.
+  FacingAway facing_away = FacingAway::dropped;
+  uint32_t maps_per_light = 6;               ///< O8: at most, 1…16. Levels: coarser requests use the coarsest kept.
+  uint32_t undersampling = 1;                ///< O17: divides every resolution; 1, 2 or 4.
+  uint32_t receiver_grid = 32;               ///< Cells along a view's side that know their farthest receiver; at most, 1…32, a power of two.
   LightAssignment light_assignment = LightAssignment::hierarchy;
-  CasterCulling caster_culling = CasterCulling::view_mask;
-  Writer writer = Writer::multi_draw;
-  uint32_t min_resolution = 16;              ///< Texels along a map's side, a power of two, 16…1024.
-  uint32_t max_resolution = 1024;            ///< Likewise; at least min_resolution.
+  CasterCulling caster_culling = CasterCulling::receiver_grid;
+  Writer writer = Writer::automatic;
+  uint32_t merge_below = 128;                ///< Levels: coarser requests share the map of this one; small maps cost triangles. 4…8192.
+  uint32_t min_resolution = 16;              ///< Texels along a map's side, a power of two, 4…8192. Less only where the budget is short.
+  uint32_t max_resolution = 8192;            ///< Likewise; at least min_resolution. Fixed cubes have 16…1024.
 };
 
 struct Settings {

@@ -21,8 +21,14 @@ struct Statistics {
   uint32_t lights_visible = 0;          ///< With at least one cluster.
   uint64_t clusters = 0;                ///< Occupied.
   uint64_t cluster_light_pairs = 0;
-  uint32_t shadow_maps = 0;             ///< Maps drawn (a light has one with fixed-cubes).
+  uint32_t shadow_maps = 0;             ///< Maps in use (a light has one with fixed-cubes).
   uint32_t shadow_views = 0;            ///< Their faces.
+  uint64_t pages_requested = 0;         ///< Page pool: marked at the resolutions asked for.
+  uint64_t pages_resident = 0;          ///< That have memory, at the resolutions there was room for.
+  uint64_t pages_rendered = 0;          ///< Drawn this frame.
+  uint64_t texels_requested = 0;        ///< Of pages_requested.
+  uint64_t unbacked_taps = 0;           ///< Texels looked up that nothing backs; where the host counts them (UMBRAGE_COUNT_TAPS).
+  uint64_t unmarked_taps = 0;           ///< Looked up outside of what was marked, answered by the light's whole map; likewise.
   uint32_t map_resolution = 0;          ///< Texels along a side, fixed-cubes.
   uint64_t texels_allocated = 0;
   uint64_t caster_pairs = 0;            ///< (batch, view) pairs that were listed.

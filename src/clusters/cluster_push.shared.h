@@ -47,8 +47,9 @@ struct LightListPush {         // list_lights
   uint64_t cluster_lights;
   uint64_t used;               // one word a light slot
   uint64_t shape;              // TreeShape
+  uint64_t pair_clusters;      // cluster of each pair
 };
-UMB_ASSERT_SIZE(LightListPush, 88);
+UMB_ASSERT_SIZE(LightListPush, 96);
 
 UMB_NAMESPACE_END
 #endif

@@ -2,6 +2,7 @@
 // shading shader reaches them.
 #ifndef UMBRAGE_CLUSTERS_TYPES_SHARED_H
 #define UMBRAGE_CLUSTERS_TYPES_SHARED_H
+#include "clusters/frame_report.shared.h"
 #include "scene/scene_types.shared.h"
 
 UMB_NAMESPACE_BEGIN
@@ -50,6 +51,7 @@ struct FrameRecord {
   uint64_t cluster_lights;   // slots
   uint64_t counters;         // FrameCounters
   uint64_t views;            // ShadowView
+  uint64_t tap_counts;       // TapCounts
   uint light_count;          // alive
   uint directional_count;
   uint cluster_capacity;
@@ -70,48 +72,11 @@ struct FrameRecord {
   uint receiver_grid;        // cells along a view's side: 1 (PMCD), 2 … 32
   uint map_capacity;
 };
-UMB_ASSERT_SIZE(FrameRecord, 384);
+UMB_ASSERT_SIZE(FrameRecord, 392);
 
 /// FrameRecord::store.
 UMB_CONST uint StoreAtlas = 0u;
 UMB_CONST uint StorePool = 1u;
-
-/// What the frame counts; set to 0 (pair_limit by the host) when it begins. The first words are arguments of indirect dispatches.
-struct FrameCounters {
-  uint cluster_groups[3];    // of 64 clusters
-  uint clusters;             // within capacity
-  uint clusters_found;
-  uint pairs;                // within capacity
-  uint pairs_found;
-  uint lights_visible;
-  uint caster_pairs;
-  uint views_drawn;
-  uint pair_limit;           // caster pairs that the recorded rounds can draw
-  uint batches_drawn_low, batches_drawn_high;
-  uint triangles_drawn_low, triangles_drawn_high;
-  uint all_lights_used;
-  // Virtual shadow maps. Groups of indirect dispatches first; those of `fit_` are 0 once the pages fit the pool.
-  uint pair_groups[3];       // of 64 cluster/light pairs
-  uint map_groups[3];        // a workgroup a map
-  uint fit_pair_groups[3];
-  uint fit_map_groups[3];
-  uint fit_word_groups[3];   // of 64 page words
-  uint clear_groups[3];      // a workgroup per ClearUnits of the pool
-  uint maps, maps_found;     // within capacity; that there would be
-  uint page_words, page_words_found;
-  uint receiver_views, receiver_views_found;
-  uint pages_requested;      // at the resolutions asked for
-  uint pages;                // that have memory
-  uint pool_units;           // that the pages of this round need
-  uint pool_units_asked;     // that those of the first round would
-  uint fitted;               // 1: they fit
-  uint lights_shifted;       // lights that are coarser than they asked
-};
-UMB_ASSERT_SIZE(FrameCounters, 184);
-
-/// Words of the used lights: bits.
-UMB_CONST uint LightIsUsed = 1u;
-UMB_CONST uint LightLacksCasters = 2u;
 
 // --- Camera ---------------------------------------------------------------------------------------------------------
 

@@ -56,6 +56,7 @@ Result<void> Clusters::reserve(const gpu::Device& device, gpu::Memory& memory, g
                   {counts_, clusters * sizeof(uint32_t), "cluster light counts", {}},
                   {lists_, clusters * sizeof(shared::ClusterList), "cluster lists", {}},
                   {lights_, pair_capacity * sizeof(uint32_t), "cluster lights", {}},
+                  {pair_clusters_, pair_capacity * sizeof(uint32_t), "clusters of pairs", {}},
                   {used_, std::max(light_slots, 1u) * sizeof(uint32_t), "used lights", {}}};
   for (Need& need : needs) {
     if (need.target && need.target.size() >= need.bytes) continue;
@@ -136,7 +137,7 @@ void Clusters::record_lights(gpu::Recorder& recorder, const gpu::Buffer& frame, 
   inputs(pass);
   pass.read(counters, gpu::Access::indirect_read);
   push.counters = pass.write(counters), push.counts = pass.read(counts_), push.lists = pass.write(lists_);
-  push.cluster_lights = pass.write(lights_), push.used = pass.write(used_);
+  push.cluster_lights = pass.write(lights_), push.used = pass.write(used_), push.pair_clusters = pass.write(pair_clusters_);
   pass.dispatch_indirect(write_lights_[brute_force], push, counters, 0);
 }
 

@@ -22,6 +22,12 @@ class Clusters {
   void record_lights(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,
                      VkDeviceAddress tree_shape, LightAssignment);
   const gpu::Buffer& used_lights() const { return used_; }
+  const gpu::Buffer& boxes() const { return boxes_; }
+  const gpu::Buffer& cones() const { return cones_; }
+  const gpu::Buffer& cells() const { return cells_; }
+  const gpu::Buffer& lights() const { return lights_; }
+  /// The cluster of each entry of lights(); NoIndex where a list found no room.
+  const gpu::Buffer& pair_clusters() const { return pair_clusters_; }
   uint32_t pair_capacity() const { return pair_capacity_; }
   /// What a lookup reads.
   std::array<const gpu::Buffer*, 6> published() const { return {&words_, &cells_, &boxes_, &cones_, &lists_, &lights_}; }
@@ -30,7 +36,7 @@ class Clusters {
   uint32_t cluster_capacity_ = 0, pair_capacity_ = 0, light_slots_ = 0;
   gpu::Pipeline assign_, count_, compact_, count_lights_[2], write_lights_[2];
   gpu::PrefixSum scan_;
-  gpu::Buffer words_, found_, tile_counts_, cells_, boxes_, cones_, counts_, lists_, lights_, used_;
+  gpu::Buffer words_, found_, tile_counts_, cells_, boxes_, cones_, counts_, lists_, lights_, pair_clusters_, used_;
 };
 
 }  // namespace umbrage::clusters

@@ -8,11 +8,13 @@ layout(push_constant, scalar) uniform PushBlock { LightListPush push; };
 layout(constant_id = 0) const bool writes = false;
 layout(constant_id = 1) const bool brute_force = false;
 
+uint cluster;
 uint found = 0u;
 
 void take(uint slot, uint first) {
   if (writes) {
     Uints(push.cluster_lights).v[first + found] = slot;
+    Uints(push.pair_clusters).v[first + found] = cluster;
     Uints(push.used).v[slot] = LightIsUsed;
   }
   ++found;
@@ -50,12 +52,19 @@ void walk(Box box, uint first) {
 }
 
 void main() {
-  uint cluster = gl_GlobalInvocationID.x;
+  cluster = gl_GlobalInvocationID.x;
   FrameRecord frame = Frame(push.frame).record;
   uint clusters = Counters(push.counters).counters.clusters;
   if (cluster >= clusters) {
     if (!writes && cluster < frame.cluster_capacity) Uints(push.counts).v[cluster] = 0u;
     return;
+  }
+  if (writes && cluster == 0u) {
+    uint groups = (min(Counters(push.counters).counters.pairs_found, frame.pair_capacity) + 63u) / 64u;
+    uint rows = max((groups + 65534u) / 65535u, 1u);
+    Counters(push.counters).counters.pair_groups[0] = (groups + rows - 1u) / rows;
+    Counters(push.counters).counters.pair_groups[1] = rows;
+    Counters(push.counters).counters.pair_groups[2] = 1u;
   }
   Box box = Boxes(push.boxes).v[cluster];
   uint first = 0u;
@@ -64,6 +73,7 @@ void main() {
     uint end = cluster + 1u < clusters ? Uints(push.counts).v[cluster + 1u] : Counters(push.counters).counters.pairs_found;
     if (end > frame.pair_capacity) {   // no room: every light, slower and right
       ClusterLists(push.lists).v[cluster] = ClusterList(NoIndex, frame.light_count);
+      for (uint pair = first; pair < frame.pair_capacity; ++pair) Uints(push.pair_clusters).v[pair] = NoIndex;
       Counters(push.counters).counters.all_lights_used = 1u;
       return;
     }

@@ -26,13 +26,18 @@ struct Field {
 constexpr std::array<Choice, 2> kBounds{{{"implicit_cell", 0}, {"explicit_bits", 1}}};
 constexpr std::array<Choice, 2> kAssignment{{{"hierarchy", 0}, {"brute_force", 1}}};
 constexpr std::array<Choice, 5> kCulling{{{"light_volume", 0}, {"view_mask", 1}, {"projection_map", 2}, {"projection_map_depth", 3}, {"receiver_grid", 4}}};
-constexpr std::array<Choice, 2> kWriter{{{"traditional", 0}, {"multi_draw", 1}}};
+constexpr std::array<Choice, 5> kWriter{{{"automatic", 0}, {"traditional", 1}, {"multi_draw", 2}, {"compute", 3}, {"fragments", 4}}};
+constexpr std::array<Choice, 2> kStore{{{"fixed_cubes", 0}, {"page_pool", 1}}};
+constexpr std::array<Choice, 2> kLayout{{{"exact", 0}, {"levels", 1}}};
+constexpr std::array<Choice, 2> kResolution{{{"paper", 0}, {"corrected", 1}}};
+constexpr std::array<Choice, 2> kBuckets{{{"logarithmic", 0}, {"linear", 1}}};
+constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
 
 #define UMB_FIELD(path)                                                                    \
   [](const Settings& s) { return static_cast<uint32_t>(s.path); },                         \
       [](Settings& s, uint32_t v) { s.path = static_cast<decltype(s.path)>(v); }
 
-const std::array<Field, 11> kFields{{
+const std::array<Field, 20> kFields{{
     {{"cluster_bounds", "implicit_cell|explicit_bits", "bounds of a cluster: its cell, or tight ones from three 10-bit number lines (O9)"},
      UMB_FIELD(frame.cluster_bounds), kBounds},
     {{"light_assignment", "hierarchy|brute_force", "lights per cluster through the 32-way light tree, or every pair tested"},
@@ -40,11 +45,25 @@ const std::array<Field, 11> kFields{{
     {{"caster_culling", "light_volume|view_mask|projection_map|projection_map_depth|receiver_grid",
       "batches in the light's volume to all its views, to those they meet, or only where and in front of what receives (virtual shadow maps)"},
      UMB_FIELD(frame.caster_culling), kCulling},
-    {{"writer", "traditional|multi_draw", "a render pass per view, or one GPU-written multi-draw"}, UMB_FIELD(frame.writer), kWriter},
-    {{"min_resolution", "16..1024, a power of two", "texels along a map's side at least; lights that do not fit have no map"},
-     UMB_FIELD(frame.min_resolution), {}, 16, 1024, true},
-    {{"max_resolution", "16..1024, a power of two", "texels along a map's side at most; fixed-cubes takes the largest that fits the budget"},
-     UMB_FIELD(frame.max_resolution), {}, 16, 1024, true},
+    {{"writer", "automatic|traditional|multi_draw|compute|fragments",
+      "fixed cubes: a render pass per view or one multi-draw; page pool: compute shaders or an atomic a fragment"},
+     UMB_FIELD(frame.writer), kWriter},
+    {{"store", "fixed_cubes|page_pool", "one map per light in an atlas, or virtual maps in a pool of pages"}, UMB_FIELD(fixed.store), kStore},
+    {{"layout", "exact|levels", "maps as fine as asked and rounded up to pages (O8), or powers of two"}, UMB_FIELD(frame.layout), kLayout},
+    {{"resolution", "paper|corrected", "texels a cluster asks for: O2 as printed, or at least one per pixel (E2, E3)"},
+     UMB_FIELD(frame.resolution), kResolution},
+    {{"buckets", "logarithmic|linear", "steps of the histogram behind a light's maps (O8, E8); exact layout"}, UMB_FIELD(frame.buckets), kBuckets},
+    {{"facing_away", "kept|dropped", "cluster/light pairs whose normals all face away from the light"}, UMB_FIELD(frame.facing_away), kFacingAway},
+    {{"maps_per_light", "1..16", "maps of different resolution that a light may have (O8)"}, UMB_FIELD(frame.maps_per_light), {}, 1, 16},
+    {{"undersampling", "1..4, a power of two", "divides every resolution (O17)"}, UMB_FIELD(frame.undersampling), {}, 1, 4, true},
+    {{"receiver_grid", "1..32, a power of two", "cells along a view's side that know their farthest receiver, for depth culling; fewer where there are thousands of lights"},
+     UMB_FIELD(frame.receiver_grid), {}, 1, 32, true},
+    {{"merge_below", "4..8192, a power of two", "levels layout: coarser requests share the map of this resolution"},
+     UMB_FIELD(frame.merge_below), {}, 4, 8192, true},
+    {{"min_resolution", "4..8192, a power of two", "texels along a map's side at least; fixed cubes: from 16 on"},
+     UMB_FIELD(frame.min_resolution), {}, 4, 8192, true},
+    {{"max_resolution", "4..8192, a power of two", "texels along a map's side at most; fixed cubes: up to 1024, the largest that fits the budget"},
+     UMB_FIELD(frame.max_resolution), {}, 4, 8192, true},
     {{"frames_in_flight", "1..4", "frames recorded before the first has retired"}, UMB_FIELD(fixed.frames_in_flight), {}, 1, 4},
     {{"budget_mib", "4..16384", "MiB of depth texels; tables are reported apart"}, UMB_FIELD(fixed.budget_mib), {}, 4, 16384},
     {{"batch_triangles", "32..1024", "triangles in a batch at most (O4); small ones cull better, large ones cost fewer tests"},
@@ -70,13 +89,40 @@ std::string list_of(auto&& range, auto&& name) {
 
 Settings fixed_cubes() {
   Settings settings;
+  settings.fixed.store = Store::fixed_cubes;
   settings.frame.caster_culling = CasterCulling::light_volume;
   return settings;
 }
 
-const std::array<Preset, 2> kPresets{{
-    {"default", "the best form there is so far: fixed-cubes, batches only to the faces they meet", Settings{}},
+/// A variant of Olsson et al. 2014 as printed: exact layout, O2, histogram of log2 steps.
+Settings paper(CasterCulling culling, ClusterBounds bounds, uint32_t maps_per_light = 4, uint32_t undersampling = 1) {
+  Settings settings;
+  settings.frame = {.cluster_bounds = bounds, .layout = MapLayout::exact, .resolution = ResolutionForm::paper, .facing_away = FacingAway::kept,
+                    .maps_per_light = maps_per_light, .undersampling = undersampling, .receiver_grid = 1, .caster_culling = culling,
+                    .min_resolution = 4};
+  return settings;
+}
+
+constexpr auto kCell = ClusterBounds::implicit_cell, kTight = ClusterBounds::explicit_bits;
+constexpr auto kPmcd = CasterCulling::projection_map_depth;
+
+const std::array<Preset, 16> kPresets{{
+    {"default", "virtual maps in levels, texels that match pixels, culled on the receiver grid", Settings{}},
     {"fixed-cubes", "one cube map per light, one resolution for all that fits the budget, every face gets every batch in range", fixed_cubes()},
+    {"naive", "the paper's baseline: matched resolution, every batch in the light's sphere to all six faces", paper(CasterCulling::light_volume, kCell)},
+    {"CFM", "batches only to cube faces that they meet and that have receivers", paper(CasterCulling::view_mask, kCell)},
+    {"PMC", "and only where batch and receivers share a tile of the projection map", paper(CasterCulling::projection_map, kCell)},
+    {"PMC-EB", "PMC with explicit cluster bounds", paper(CasterCulling::projection_map, kTight)},
+    {"PMCD", "PMC, and not behind the farthest receiver of the face", paper(kPmcd, kCell)},
+    {"PMCD-EB", "the paper's best: PMCD with explicit cluster bounds, 4 maps per light", paper(kPmcd, kTight)},
+    {"PMCD-EB-1SM", "PMCD-EB with one map per light", paper(kPmcd, kTight, 1)},
+    {"PMCD-EB-2SM", "PMCD-EB with 2 maps per light", paper(kPmcd, kTight, 2)},
+    {"PMCD-EB-4SM", "PMCD-EB under its full name: 4 maps per light", paper(kPmcd, kTight, 4)},
+    {"PMCD-EB-8SM", "PMCD-EB with 8 maps per light", paper(kPmcd, kTight, 8)},
+    {"PMCD-EB-16SM", "PMCD-EB with 16 maps per light", paper(kPmcd, kTight, 16)},
+    {"u2", "PMCD-EB with every resolution halved", paper(kPmcd, kTight, 4, 2)},
+    {"u4", "PMCD-EB with every resolution quartered", paper(kPmcd, kTight, 4, 4)},
+    {"default-u2", "default with every resolution halved", [] { Settings s; s.frame.undersampling = 2; return s; }()},
 }};
 }  // namespace
 
@@ -142,6 +188,11 @@ Result<void> validate(const Settings& settings) {
   if (settings.frame.min_resolution > settings.frame.max_resolution)
     return Error{ErrorCode::invalid_argument, "min_resolution " + std::to_string(settings.frame.min_resolution) +
                                                   " is larger than max_resolution " + std::to_string(settings.frame.max_resolution)};
+  const Writer writer = settings.frame.writer;
+  const bool of_pages = writer == Writer::compute || writer == Writer::fragments;
+  if (writer != Writer::automatic && of_pages != (settings.fixed.store == Store::page_pool))
+    return Error{ErrorCode::invalid_argument, "writer=" + get_setting(settings, "writer") + " does not draw into store=" + get_setting(settings, "store") +
+                                                  (of_pages ? ", which needs traditional, multi_draw" : ", which needs compute, fragments") + " or automatic"};
   return {};
 }
 

@@ -2,7 +2,6 @@
 #ifndef UMBRAGE_CULLING_TYPES_SHARED_H
 #define UMBRAGE_CULLING_TYPES_SHARED_H
 #include "maps/map_types.shared.h"
-#include "store/store_types.shared.h"
 
 UMB_NAMESPACE_BEGIN
 

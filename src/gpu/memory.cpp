@@ -125,6 +125,15 @@ void Memory::release(uint32_t index, VkDeviceSize offset, VkDeviceSize size) {
   }
 }
 
+Result<void> grow(Buffer& target, const Device& device, Memory& memory, VkDeviceSize bytes, const char* name, std::vector<Buffer>& retired) {
+  if (target && target.size() >= bytes) return {};
+  auto made = Buffer::create(device, memory, std::max<VkDeviceSize>(bytes, 16), MemoryKind::device, name);
+  if (!made) return made.error();
+  if (target) retired.push_back(std::move(target));
+  target = std::move(*made);
+  return {};
+}
+
 Result<Buffer> Buffer::create(const Device& device, Memory& memory, VkDeviceSize size, MemoryKind kind, const char* name) {
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = align_up(std::max<VkDeviceSize>(size, 16), 16);

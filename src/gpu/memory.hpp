@@ -107,6 +107,9 @@ class Buffer {
   Allocation allocation_;
 };
 
+/// Replaces `target` by a larger buffer if it has fewer than `bytes`; the former one goes to `retired`. Contents are lost.
+Result<void> grow(Buffer& target, const Device&, Memory&, VkDeviceSize bytes, const char* name, std::vector<Buffer>& retired);
+
 /// A 2D depth image with one view. Move-only.
 class DepthImage {
  public:

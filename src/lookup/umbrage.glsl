@@ -14,7 +14,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 
 #include "clusters/cluster_types.shared.h"
-#include "store/store_types.shared.h"
+#include "maps/map_types.shared.h"
 
 #define UMBRAGE_REFERENCE(name, type, align) \
   layout(buffer_reference, scalar, buffer_reference_align = align) readonly buffer name { type v[]; }
@@ -27,6 +27,11 @@ UMBRAGE_REFERENCE(UmbrageBoxes, Box, 4);
 UMBRAGE_REFERENCE(UmbrageCones, vec4, 4);
 UMBRAGE_REFERENCE(UmbrageUints, uint, 4);
 UMBRAGE_REFERENCE(UmbrageCounters, FrameCounters, 4);
+UMBRAGE_REFERENCE(UmbrageMapList, MapRecord, 4);
+UMBRAGE_REFERENCE(UmbrageLightMapList, LightMaps, 4);
+#ifdef UMBRAGE_COUNT_TAPS   // needs stores and atomics in the host's stage
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer UmbrageTapCounter { TapCounts taps; };
+#endif
 
 layout(set = UMBRAGE_SET, binding = 0) uniform texture2D umbrage_atlas;
 
@@ -124,58 +129,45 @@ uvec2 umbrage_cluster_cell(Frame frame, Cluster cluster) {
   return uvec2(cell / MaxSlices, cell % MaxSlices);
 }
 
+#include "lookup/find_map.glsl"
 #include "lookup/nine_taps.glsl"
 
-/// Visibility of a light by its slot (Light::index); as umbrage_visibility.
-float umbrage_light_visibility(Frame frame, uint slot, vec3 position_ws, vec3 normal_ws) {
-  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
-  if (record.view_count == 0u) return 1.0f;
-  Map map = Map(record.first_view, record.views, record.resolution, record.near_m);
-  if (record.views == ViewsOrtho) return visibility_ortho(frame, map, position_ws, normal_ws);
-  vec3 relative = position_ws - record.position_ws;
-  if (record.views == ViewsSpot) return visibility_spot(frame, map, relative, normal_ws);
-  return visibility_cube(frame, map, relative, normal_ws);
+UMB_FN float visibility_in_map(Frame frame, LightRecord light, Map map, vec3 position_ws, vec3 normal_ws, inout TapPage last) {
+  if (light.views == ViewsOrtho) return visibility_ortho(frame, map, position_ws, normal_ws, last);
+  vec3 relative = position_ws - light.position_ws;
+  if (light.views == ViewsSpot) return visibility_spot(frame, map, relative, normal_ws, last);
+  return visibility_cube(frame, map, relative, normal_ws, last);
+}
+
+UMB_FN void count_taps(Frame frame, uint unbacked, uint unmarked) {
+#ifdef UMBRAGE_COUNT_TAPS
+  UmbrageTapCounter counts = UmbrageTapCounter(UmbrageFrames(frame.address).v[0].tap_counts);
+  if (unbacked > 0u) atomicAdd(counts.taps.unbacked, unbacked);
+  if (unmarked > 0u) atomicAdd(counts.taps.unmarked, unmarked);
+#endif
 }
 
 /// How much of light i of the cluster reaches a point: 0 nothing, 1 all. normal_ws: the surface's geometric normal, unit,
-/// on the side that is seen. Meaningful where normal · light > 0 and the light is in range; lights that cast no shadow give 1.
+/// on the side that is seen. Meaningful where normal · light > 0 and the light is in range; lights that cast no shadow give
+/// 1, surfaces that the cluster's normals show to face away give 0.
 float umbrage_visibility(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws) {
-  return umbrage_light_visibility(frame, light_slot(frame, cluster, i), position_ws, normal_ws);
+  uint slot = light_slot(frame, cluster, i);
+  LightRecord light = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
+  if (light.view_count == 0u) return 1.0f;
+  Map map = map_of_pair(frame, cluster, i, slot);
+  if (map.resolution == 0u) return 0.0f;
+  TapPage last = TapPage(NoIndex, NoIndex, 0u);
+  float visibility = visibility_in_map(frame, light, map, position_ws, normal_ws, last);
+  if (last.missing == 0u) return visibility;
+  // Outside of what the depth buffer showed: all nine taps from the light's whole map, if it has one.
+  Map whole = map_of_record(frame, whole_map(frame, slot), light.near_m);
+  if (whole.resolution == 0u) {
+    count_taps(frame, last.missing, 0u);
+    return visibility;
+  }
+  count_taps(frame, 0u, last.missing);
+  last = TapPage(NoIndex, NoIndex, 0u);
+  return visibility_in_map(frame, light, whole, position_ws, normal_ws, last);
 }
 
-/// One step along each axis of the shadow map used at a point, as vectors on the receiver's plane (0 for lights without one).
-void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws, out vec3 du_ws, out vec3 dv_ws) {
-  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[light_slot(frame, cluster, i)];
-  du_ws = vec3(0.0f);
-  dv_ws = vec3(0.0f);
-  if (record.view_count == 0u) return;
-  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[record.first_view];
-  vec3 relative = position_ws - record.position_ws;
-  vec3 ray = relative;   // from the light through the point
-  vec3 step_u;
-  vec3 step_v;
-  if (record.views == ViewsOrtho) {
-    ray = -view.z_row;
-    step_u = normalize(view.x_row) * (view.side_m / float(record.resolution));
-    step_v = normalize(view.y_row) * (view.side_m / float(record.resolution));
-  } else {
-    vec3 x_axis = view.x_row * view.tangent;
-    vec3 y_axis = view.y_row * view.tangent;
-    float depth = dot(view.w_row, relative);
-    if (record.views == ViewsCube) {
-      uint face = face_of_direction(relative);
-      depth = face_coordinates(face, relative).z;
-      x_axis = face_direction(face, 1.0f, 0.0f) - face_direction(face, 0.0f, 0.0f);
-      y_axis = face_direction(face, 0.0f, 1.0f) - face_direction(face, 0.0f, 0.0f);
-    }
-    float size = texel_size_m(depth, view.tangent, record.resolution);
-    step_u = x_axis * size;
-    step_v = y_axis * size;
-  }
-  // Slid along the ray until it lies on the plane; grazing planes are cut off at a slope of 50.
-  float slope = dot(normal_ws, ray);
-  float least = 0.02f * length(ray);
-  if (abs(slope) < least) slope = slope < 0.0f ? -least : least;
-  du_ws = step_u - ray * (dot(normal_ws, step_u) / slope);
-  dv_ws = step_v - ray * (dot(normal_ws, step_v) / slope);
-}
+#include "lookup/footprint.glsl"

@@ -7,7 +7,7 @@
 UMB_NAMESPACE_BEGIN
 
 /// Texels along a page's side. Maps below it are one page of their own side a view.
-UMB_CONST uint PageSide = 128u;
+UMB_CONST uint PageSide = 64u;
 /// Places in the pool are counted in units of so many texels.
 UMB_CONST uint PoolUnit = 16u;
 /// Resolutions: powers of two 2^MinLevel … 2^MaxLevel (levels), or any multiple of the page (exact).
@@ -40,8 +40,9 @@ struct LightMaps {
   uint count;
   uint whole;
   uint shift;              // halvings of what was asked for, because the budget is short
+  uint kept;               // bit p: a map begins at place p (map_of_place)
 };
-UMB_ASSERT_SIZE(LightMaps, 16);
+UMB_ASSERT_SIZE(LightMaps, 20);
 
 UMB_FN uint pages_of(uint resolution) { return (resolution + PageSide - 1u) / PageSide; }
 UMB_FN uint page_side_of(uint resolution) { return min(resolution, PageSide); }
@@ -75,6 +76,11 @@ UMB_FN uint page_texel(uint bits, uint first, uint bit, uint resolution) {
 /// A texel within its page.
 UMB_FN uint texel_in_page(uvec2 texel, uint resolution) {
   return (texel.y % PageSide) * page_side_of(resolution) + texel.x % PageSide;
+}
+
+/// Fixed cubes: the tile of the atlas that a view has for its own.
+UMB_FN uvec2 atlas_tile(uint view, uint columns, uint tile_resolution) {
+  return uvec2(view % columns, view / columns) * tile_resolution;
 }
 
 UMB_NAMESPACE_END

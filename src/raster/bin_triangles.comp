@@ -29,6 +29,7 @@ void main() {
   Frame frame = Frame(push.frame);
   RasterTriangle t = RasterTriangles(push.triangles).v[index];
   MapRecord map = Maps(frame.v.maps).v[t.map];
+  float near_m = Views(frame.v.views).v[map.first_view].near_m;
   ivec2 first, last;
   texel_box(t, map.resolution, first, last);
   ivec2 first_tile = first / int(TileTexels);
@@ -43,6 +44,9 @@ void main() {
     if (misses(edges, step_x, step_y)) continue;
     uint origin = page_origin(frame, map, t.view, uvec2(corner));
     if (origin == NoTexel) continue;
+    ivec2 seen_first = max(corner, first);
+    ivec2 seen_last = min(corner + int(TileTexels) - 1, last);
+    if (push.flags == TestReceivers && !receivers_see(frame, map, t.view, seen_first, seen_last, near_m, t.z_max)) continue;
     uint node = atomicAdd(appended.v.nodes, 1u);
     if (node < push.node_capacity) {
       uvec2 in_page = uvec2(corner) % PageSide;
@@ -52,9 +56,8 @@ void main() {
       uint number = origin / (PageSide * PageSide) * (side * side) + tile.y * side + tile.x;
       link(index, number, origin + in_page.y * PageSide + in_page.x, edges, fractions, node);
     } else {
-      ivec2 lo = max(corner, first);
-      edges += step_x * (lo.x - corner.x) + step_y * (lo.y - corner.y);
-      draw_block(Uints(frame.v.pool), t, PageSide, origin, lo, min(corner + int(TileTexels) - 1, last), edges, fractions);
+      edges += step_x * (seen_first.x - corner.x) + step_y * (seen_first.y - corner.y);
+      draw_block(Uints(frame.v.pool), t, PageSide, origin, seen_first, seen_last, edges, fractions);
     }
   }
 }

@@ -10,6 +10,27 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ItemCounts {
 
 const uint NoTexel = 0xffffffffu;
 
+/// False when in every cell of the receiver grid that texels first … last touch, all receivers lie in front of `nearest`, a
+/// depth key. Exact: keys of a view are in the order of its depths.
+bool receivers_see(Frame frame, MapRecord map, uint view, ivec2 first, ivec2 last, float near_m, float nearest) {
+  if (map.whole != 0u) return true;
+  uint side = frame.v.receiver_grid;
+  ivec2 begin = first * int(side) / int(map.resolution);
+  ivec2 end = last * int(side) / int(map.resolution);
+  if ((end.x - begin.x + 1) * (end.y - begin.y + 1) > 64) return true;
+  // A hair nearer: the key was rounded.
+  float depth = (map.kind == ViewsOrtho ? 1.0 - nearest : near_m / nearest) * (1.0 - 1e-5) - (map.kind == ViewsOrtho ? 1e-5 : 0.0);
+  uint row = ((map.first_receiver + view) * side + uint(begin.y)) * side;
+  for (int y = begin.y; y <= end.y; ++y) {
+    for (int x = begin.x; x <= end.x; ++x) {
+      float farthest = uintBitsToFloat(Uints(frame.v.receiver_depth).v[row + uint(x)]);
+      if (farthest > 0.0 && farthest >= depth) return true;
+    }
+    row += side;
+  }
+  return false;
+}
+
 /// Where the texel (0, 0) of the page that holds `texel` lies in the pool; NoTexel for a page that nobody marked.
 uint page_origin(Frame frame, MapRecord map, uint view, uvec2 texel) {
   PagePlace place = page_place(map, view, texel);

@@ -97,19 +97,21 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
                               .item_capacity = in.item_capacity,
                               .large_capacity = large_capacity_,
                               .node_capacity = node_capacity_,
-                              .step = shared::PlanItems};
+                              .flags = shared::PlanItems};
   const auto plan = [&](uint32_t step) {
     gpu::Pass pass = recorder.pass("plan dispatches");
     pass.read(in.counts);
     pass.write(arguments_);
     pass.write(appended_);
-    push.step = step;
+    push.flags = step;
     pass.dispatch(plan_, push, 1);
   };
   const auto read_places = [&](gpu::Pass& pass) {
     for (const gpu::Buffer* buffer : {&in.frame, &in.maps, &in.page_bits, &in.page_first, &in.scene.batch_buffer()}) pass.read(*buffer);
     pass.write(in.pool);
     pass.read(arguments_, gpu::Access::indirect_read);
+    if (in.receiver_depth) pass.read(*in.receiver_depth);
+    push.flags = in.receiver_depth ? shared::TestReceivers : 0;
   };
   {
     gpu::Pass pass = recorder.pass("clear tile heads");
@@ -131,7 +133,7 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
   {
     gpu::Pass pass = recorder.pass("bin triangles");
     read_places(pass);
-    pass.read(triangles_);
+    pass.read(triangles_), pass.read(in.views);
     for (const gpu::Buffer* buffer : {&appended_, &nodes_, &heads_, &tiles_}) pass.write(*buffer);
     pass.dispatch_indirect(bin_[masked], push, arguments_, offsetof(shared::RasterArguments, triangles));
   }

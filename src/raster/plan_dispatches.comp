@@ -12,13 +12,13 @@ uvec2 groups_of(uint count) {
 void main() {
   Arguments arguments = Arguments(push.arguments);
   Appended appended = Appended(push.appended);
-  if (push.step == PlanItems) {
+  if (push.flags == PlanItems) {
     DrawCounts counts = ItemCounts(push.counts).v;
     uvec2 opaque = groups_of(min(counts.opaque, push.item_capacity));
     uvec2 masked = groups_of(min(counts.masked, push.item_capacity));
     arguments.v.items = uint[](opaque.x, opaque.y, 1u, masked.x, masked.y, 1u);
     appended.v = RasterCounts(0u, 0u, 0u);
-  } else if (push.step == PlanTriangles) {
+  } else if (push.flags == PlanTriangles) {
     uvec2 groups = groups_of(min(appended.v.triangles, push.large_capacity));
     arguments.v.triangles = uint[](groups.x, groups.y, 1u);
   } else {

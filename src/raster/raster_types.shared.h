@@ -72,10 +72,12 @@ struct PageRasterPush {      // plan_dispatches, rasterize_triangles, bin_triang
   uint item_capacity;        // masked items begin there
   uint large_capacity;
   uint node_capacity;
-  uint step;                 // plan_dispatches: PlanItems, …
+  uint flags;                // plan_dispatches: PlanItems, …; others: TestReceivers or 0
 };
 UMB_ASSERT_SIZE(PageRasterPush, 120);
 
+/// Triangles, and tiles of large ones, are drawn only where and in front of what receives (the receiver grid).
+UMB_CONST uint TestReceivers = 1u;
 UMB_CONST uint PlanItems = 0u;
 UMB_CONST uint PlanTriangles = 1u;
 UMB_CONST uint PlanTiles = 2u;

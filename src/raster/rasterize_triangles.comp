@@ -14,6 +14,7 @@ Frame frame;
 MapRecord map;
 uint map_index;
 uint batch_index;
+float near_m;
 
 /// In blocks: pages for narrow triangles, tiles for the others.
 void draw_here(RasterTriangle t, bool narrow, ivec2 first, ivec2 last) {
@@ -51,6 +52,7 @@ void draw_or_queue(RasterTriangle t, bool narrow) {
   ivec2 first, last;
   texel_box(t, map.resolution, first, last);
   if (first.x > last.x || first.y > last.y) return;
+  if (push.flags == TestReceivers && !receivers_see(frame, map, t.view, first, last, near_m, t.z_max)) return;
   if (map.resolution >= PageSide && (last.x - first.x + 1) * (last.y - first.y + 1) > int(QueuedTexels)) {
     uint place = atomicAdd(Appended(push.appended).v.triangles, 1u);
     if (place < push.large_capacity) {
@@ -166,6 +168,7 @@ void main() {
   BatchRecord batch = Batches(push.batches).v[caster.batch];
   batch_index = caster.batch;
   ShadowView view = Views(frame.v.views).v[map.first_view];
+  near_m = view.near_m;
   precise vec3 translation = vec3(instance.row0.w, instance.row1.w, instance.row2.w) - view.origin;
   for (uint triangle = gl_LocalInvocationIndex; triangle < batch.triangle_count; triangle += RasterThreads) {
     vec3 relative[3];

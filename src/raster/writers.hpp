@@ -2,6 +2,7 @@
 #pragma once
 #include "culling/caster_culling.hpp"
 #include "raster/raster_types.shared.h"
+#include "store/fixed_cubes.hpp"
 
 namespace umbrage::raster {
 

@@ -143,13 +143,14 @@ void GpuScene::stage_records(gpu::Uploader& uploader) {
   dirty_lights_.clear();
   lights_changed_ = lights_edited_;
   if (lights_edited_) {
-    // All lights alive, directional ones first: they are in every cluster's list.
+    // All lights alive, directional ones first: they are in every cluster's list. Then the most important.
     std::vector<uint32_t> order;
     order.reserve(lights_.count());
     for (const bool directional : {true, false}) {
       for (uint32_t slot = 0; slot < lights_.slots(); ++slot)
         if (lights_.alive(slot) && (lights_.at(slot).record.type == shared::LightDirectional) == directional) order.push_back(slot);
       if (directional) directional_count_ = static_cast<uint32_t>(order.size());
+      else std::stable_sort(order.begin() + directional_count_, order.end(), [&](uint32_t a, uint32_t b) { return lights_.at(a).desc.priority > lights_.at(b).desc.priority; });
     }
     uploader.copy(light_order_buffer_.buffer(), 0, order.data(), order.size() * sizeof(uint32_t));
     lights_edited_ = false;

@@ -64,6 +64,7 @@ class GpuScene {
   uint32_t light_slots() const { return lights_.slots(); }
   uint32_t caster_slots() const { return caster_ranges_.size(); }
   uint32_t casters() const { return caster_count_; }
+  uint32_t light_count() const { return lights_.count(); }
   uint32_t directional_lights() const { return directional_count_; }
   bool has_masked() const { return masked_batches_ > 0; }
   const gpu::Buffer& light_buffer() const { return light_buffer_.buffer(); }
@@ -71,6 +72,7 @@ class GpuScene {
   const gpu::Buffer& batch_buffer() const { return batch_buffer_.buffer(); }
   const gpu::Buffer& caster_buffer() const { return caster_buffer_.buffer(); }
   const gpu::Buffer& index_buffer() const { return index_buffer_.buffer(); }
+  /// Slots of the lights alive: directional ones first, then by priority.
   const gpu::Buffer& light_order_buffer() const { return light_order_buffer_.buffer(); }
   const BoxTree& caster_tree() const { return caster_tree_; }
   const BoxTree& light_tree() const { return light_tree_; }

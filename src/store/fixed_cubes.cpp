@@ -8,9 +8,6 @@
 namespace umbrage::store {
 
 namespace {
-constexpr uint32_t kBuildViews[] =
-#include "shaders/build_views.comp.inc"
-    ;
 constexpr uint64_t kTexelBytes = sizeof(uint32_t);
 
 uint32_t views_of(const scene::HostLight& light) {
@@ -43,8 +40,9 @@ AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uin
     casting.push_back(slot);
     views += views_of(lights.at(slot));
   }
-  AtlasLayout layout = grid(views, settings.max_resolution, max_side);
-  while (layout.resolution > settings.min_resolution && !fits(layout, budget_bytes, max_side)) layout = grid(views, layout.resolution / 2, max_side);
+  const uint32_t finest = std::clamp(settings.max_resolution, 16u, 1024u), coarsest = std::clamp(settings.min_resolution, 16u, 1024u);
+  AtlasLayout layout = grid(views, finest, max_side);
+  while (layout.resolution > coarsest && !fits(layout, budget_bytes, max_side)) layout = grid(views, layout.resolution / 2, max_side);
   if (!fits(layout, budget_bytes, max_side)) {
     std::stable_sort(casting.begin(), casting.end(), [&](uint32_t a, uint32_t b) { return lights.at(a).desc.priority > lights.at(b).desc.priority; });
     while (!fits(layout, budget_bytes, max_side) && !casting.empty()) {
@@ -78,24 +76,9 @@ AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uin
   return layout;
 }
 
-Result<FixedCubes> FixedCubes::create(const gpu::PipelineFactory& factory) {
-  FixedCubes out;
-  auto made = factory.compute(kBuildViews, "build views");
-  if (!made) return made.error();
-  out.build_views_ = std::move(*made);
-  return out;
-}
-
 Result<void> FixedCubes::reserve(const gpu::Device& device, gpu::Memory& memory, const AtlasLayout& layout,
                                  gpu::RetireQueue& retired, uint64_t serial) {
   const uint32_t width = layout.columns * layout.resolution, height = layout.rows * layout.resolution;
-  const VkDeviceSize view_bytes = std::max(layout.views, 1u) * sizeof(shared::ShadowView);
-  if (!views_ || views_.size() < view_bytes) {
-    auto made = gpu::Buffer::create(device, memory, view_bytes, gpu::MemoryKind::device, "shadow views");
-    if (!made) return made.error();
-    if (views_) retired.retire(std::move(views_), serial);
-    views_ = std::move(*made);
-  }
   if (!atlas_ || atlas_.width() != width || atlas_.height() != height) {
     auto made = gpu::DepthImage::create(device, memory, width, height, "shadow atlas");
     if (!made) return made.error();
@@ -107,21 +90,8 @@ Result<void> FixedCubes::reserve(const gpu::Device& device, gpu::Memory& memory,
 }
 
 void FixedCubes::fill(shared::FrameRecord& frame) const {
-  frame.views = views_.address();
   frame.atlas_columns = layout_.columns;
   frame.atlas_resolution = layout_.resolution;
-}
-
-void FixedCubes::record_views(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Buffer& counters,
-                              const scene::GpuScene& scene, const gpu::Buffer& used_lights, bool all_lights) {
-  if (scene.light_slots() == 0) return;
-  gpu::Scope scope(recorder, "views");
-  gpu::Pass pass = recorder.pass("build views");
-  const shared::BuildViewsPush push{.frame = pass.read(frame), .lights = pass.read(scene.light_buffer()), .used = pass.write(used_lights),
-                                    .counters = pass.write(counters), .views = pass.write(views_),
-                                    .scene_bounds = pass.read(scene.caster_tree().bounds()),
-                                    .light_slots = scene.light_slots(), .all_lights = all_lights};
-  pass.dispatch(build_views_, push, (scene.light_slots() + 31) / 32);
 }
 
 }  // namespace umbrage::store

@@ -2,7 +2,7 @@
 // D32 atlas. The common baseline of today's engines.
 #pragma once
 #include "clusters/clusters.hpp"
-#include "store/store_types.shared.h"
+#include "maps/map_types.shared.h"
 #include "umbrage/stats.hpp"
 
 namespace umbrage::store {
@@ -21,22 +21,16 @@ AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uin
 
 class FixedCubes {
  public:
-  static Result<FixedCubes> create(const gpu::PipelineFactory&);
-  /// Image and view buffer for a layout; former ones are retired.
+  /// An image for a layout; the former one is retired.
   Result<void> reserve(const gpu::Device&, gpu::Memory&, const AtlasLayout&, gpu::RetireQueue&, uint64_t serial);
   void fill(shared::FrameRecord&) const;
-  void record_views(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,
-                    const gpu::Buffer& used_lights, bool all_lights);
   const gpu::DepthImage& atlas() const { return atlas_; }
-  const gpu::Buffer& views() const { return views_; }
   const AtlasLayout& layout() const { return layout_; }
   uint64_t texels() const { return uint64_t(atlas_.width()) * atlas_.height(); }
 
  private:
   AtlasLayout layout_;
-  gpu::Pipeline build_views_;
   gpu::DepthImage atlas_;
-  gpu::Buffer views_;
 };
 
 }  // namespace umbrage::store

@@ -80,6 +80,39 @@ UMB_FN ShadowView ortho_view(vec3 direction, vec3 box_min, vec3 box_max, uint re
   return view;
 }
 
+// --- What lookups reach -----------------------------------------------------------------------------------------------
+
+/// Taps lie one texel around the receiver's; a little more for rounding.
+UMB_CONST float FilterTexels = 1.05f;
+/// The receiver's plane is moved so many texels towards the light's side before it is compared.
+UMB_CONST float NormalOffsetTexels = 0.5f;
+/// A tap never compares deeper than the receiver plus so many texels, however steep the receiver's plane: what lies farther
+/// behind cannot matter to it, which is what depth culling rests on.
+UMB_CONST float TapDepthTexels = 8.0f;
+
+/// A texel's size at depth 1 of a perspective view, and everywhere in an ortho view.
+UMB_FN float unit_texel_m(ShadowView view, uint kind, uint resolution) {
+  return (kind == ViewsOrtho ? view.side_m : 2.0f * view.tangent) / float(resolution);
+}
+
+/// By how much a box of receivers is grown, on every side, so that its footprint holds all taps (E7). A texel is widest
+/// where the axis depth is largest.
+UMB_FN float view_receiver_margin_m(ShadowView view, uint kind, vec3 box_min, vec3 box_max, uint resolution) {
+  float texel = unit_texel_m(view, kind, resolution);
+  if (kind == ViewsOrtho) return texel * FilterTexels;
+  if (kind == ViewsCube) return receiver_margin_m(box_min - view.origin, box_max - view.origin, resolution, FilterTexels, 0.0f);
+  vec3 centre = (box_min + box_max) * 0.5f - view.origin;
+  float depth = dot(view.w_row, centre) + dot(abs(view.w_row), (box_max - box_min) * 0.5f);
+  return texel * FilterTexels * max(depth, 0.0f);
+}
+
+/// The farthest depth that a tap compares, of receivers no deeper than `depth`; in the view's depth (ViewFootprint).
+UMB_FN float farthest_tap_depth(ShadowView view, uint kind, float depth, uint resolution) {
+  float texel = unit_texel_m(view, kind, resolution);
+  if (kind == ViewsOrtho) return depth + TapDepthTexels * texel * length(view.z_row);
+  return depth * (1.0f + TapDepthTexels * texel);
+}
+
 // --- Boxes on views ---------------------------------------------------------------------------------------------------
 
 /// What a view sees of a box. Depth: along the view's axis, in metres from the light; ortho: 1 - z, 0 at the near side and 1

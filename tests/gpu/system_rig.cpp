@@ -16,8 +16,15 @@ struct ReadAtlasPush {
 };
 }  // namespace
 
-SystemRig::SystemRig(Gpu& gpu, const StaticSettings& settings)
-    : gpu_(gpu), system_(take(ShadowSystem::create(gpu.desc(), settings))),
+namespace {
+StaticSettings with(StaticSettings settings, Store store) {
+  settings.store = store;
+  return settings;
+}
+}  // namespace
+
+SystemRig::SystemRig(Gpu& gpu, const StaticSettings& settings, Store store)
+    : gpu_(gpu), system_(take(ShadowSystem::create(gpu.desc(), with(settings, store)))),
       mask_(gpu, VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT, kMaskSide, kMaskSide) {
   std::vector<uint32_t> checkers(kMaskSide * kMaskSide);
   for (uint32_t i = 0; i < checkers.size(); ++i) checkers[i] = (i / 4 + i / kMaskSide / 4) % 2 ? 0xffffffffu : 0x00ffffffu;
@@ -94,7 +101,7 @@ Atlas SystemRig::atlas() {
   return out;
 }
 
-std::vector<shared::ShadowView> SystemRig::views() { return gpu_.download<shared::ShadowView>(stages().store.views(), stages().store.layout().views); }
+std::vector<shared::ShadowView> SystemRig::views() { return gpu_.download<shared::ShadowView>(stages().views.buffer(), state().views); }
 std::vector<shared::LightRecord> SystemRig::lights() {
   return gpu_.download<shared::LightRecord>(stages().scene.light_buffer(), stages().scene.light_slots());
 }

@@ -15,7 +15,7 @@ struct Atlas {
 
 class SystemRig {
  public:
-  SystemRig(Gpu&, const StaticSettings&);
+  SystemRig(Gpu&, const StaticSettings&, Store = Store::fixed_cubes);
 
   void add(const TestScene&);
   MeshId add(const TestMesh&);

@@ -178,9 +178,11 @@ TEST(Render, StatisticsHoldEveryKey) {
   EXPECT_GT(stats["passes"].size(), 4u);
 }
 
-TEST(Render, ListsThatStartTooShortChangeNothing) {
+class ShortLists : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShortLists, ChangeNothing) {
   const TemporaryFolder folder;
-  const Arguments many = {"--random-lights", "400", "--stats", folder.file("s.json")};
+  const Arguments many = {"--random-lights", "400", "--preset", GetParam(), "--stats", folder.file("s.json")};
   const auto render = [&](const std::string& name, const Arguments& more) {
     Arguments arguments = room("render", many);
     arguments.insert(arguments.end(), {"-o", folder.file(name)});
@@ -190,11 +192,15 @@ TEST(Render, ListsThatStartTooShortChangeNothing) {
   render("long.png", {});
   const nlohmann::json needed = parse_json(read_all(folder.file("s.json")));
   ASSERT_GT(needed["cluster_light_pairs"], 1024);
-  ASSERT_GT(needed["caster_pairs"], 1024);
+  if (std::string(GetParam()) == "fixed-cubes") {
+    ASSERT_GT(needed["caster_pairs"], 1024);
+  }
   render("short.png", {"--set", "max_cluster_light_pairs=1024", "--set", "max_caster_pairs=1024"});
   EXPECT_EQ(parse_json(read_all(folder.file("s.json")))["overflows"], 0);
   EXPECT_EQ(read_all(folder.file("short.png")), read_all(folder.file("long.png")));
 }
+
+INSTANTIATE_TEST_SUITE_P(Presets, ShortLists, testing::Values("fixed-cubes", "default"));
 
 TEST(Render, SettingsComeFromPresetFileAssignmentAndBudgetInThisOrder) {
   const TemporaryFolder folder;
@@ -367,8 +373,10 @@ TEST(Validation, IsSilentOnEveryWriterAndPicture) {
   const TemporaryFolder folder;
   if (!parse_json(run_well({"info", "--json"}).out)["validation_layer"])
     GTEST_SKIP() << "the validation layers are not installed";
-  for (const char* writer : {"writer=traditional", "writer=multi_draw"})
-    run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--frames", "3", "--set", writer, "--dump",
+  const std::pair<const char*, const char*> writers[] = {{"fixed-cubes", "writer=traditional"}, {"fixed-cubes", "writer=multi_draw"},
+                                                         {"default", "writer=compute"}, {"default", "writer=fragments"}};
+  for (const auto& [preset, writer] : writers)
+    run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--frames", "3", "--preset", preset, "--set", writer, "--dump",
                              folder.file("d")}));
   run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--show", "clusters"}));
 }

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"masked_house", "lights_and_masks/house.glb", {"--size", kMiddle, "--random-lights", "24"}, nullptr, 12},
         Case{"traditional",
              "lights_and_masks/house.glb",
-             {"--size", kMiddle, "--random-lights", "6", "--set", "writer=traditional"},
+             {"--size", kMiddle, "--random-lights", "6", "--preset", "fixed-cubes", "--set", "writer=traditional"},
              nullptr,
              3},
         Case{"fox",

@@ -63,7 +63,7 @@ TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
   EXPECT_NE(presets.out.find("fixed-cubes  "), std::string::npos) << presets.out;
   const Outcome settings = run_program({"compare", "--set", "list"});
   EXPECT_EQ(settings.status, 0) << settings.err;
-  EXPECT_NE(settings.out.find("\nwriter=traditional|multi_draw  "), std::string::npos) << settings.out;
+  EXPECT_NE(settings.out.find("\nwriter=automatic|traditional|multi_draw|compute|fragments  "), std::string::npos) << settings.out;
 }
 
 TEST(Usage, WrongCommandsExitWith2) {

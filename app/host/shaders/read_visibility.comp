@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
 #include "targets.glsl"
+#define UMBRAGE_COUNT_TAPS
 #include "lighting.glsl"
 
 layout(local_size_x = 64) in;

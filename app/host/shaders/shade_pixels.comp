@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
 #include "targets.glsl"
+#define UMBRAGE_COUNT_TAPS
 #include "lighting.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

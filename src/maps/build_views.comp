@@ -1,8 +1,8 @@
 #version 460
-// The views of every light that some cluster uses, and where in the atlas each is drawn.
+// The views of every light that some cluster uses; fixed cubes: and where in the atlas each is drawn.
 #extension GL_GOOGLE_include_directive : require
 #include "clusters/cluster_buffers.glsl"
-#include "store/store_types.shared.h"
+#include "maps/map_push.shared.h"
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform PushBlock { BuildViewsPush push; };
 UMB_ARRAY(Views, ShadowView, 4);
@@ -31,18 +31,21 @@ void main() {
     Uints(push.used).v[slot] = LightIsUsed;
   }
   if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
-  uint columns = Frame(push.frame).record.atlas_columns;
-  uint tile_resolution = Frame(push.frame).record.atlas_resolution;
+  FrameRecord frame = Frame(push.frame).record;
+  // In the page pool a view serves maps of every resolution: its guard is that of one page.
+  uint guarded = frame.store == StoreAtlas ? light.resolution : PageSide;
   Box box = scene_box();
   for (uint i = 0u; i < light.view_count; ++i) {
     ShadowView view;
-    if (light.views == ViewsOrtho) view = ortho_view(light.direction_ws, box.lo, box.hi, light.resolution, ViewGuardTexels);
+    if (light.views == ViewsOrtho) view = ortho_view(light.direction_ws, box.lo, box.hi, guarded, ViewGuardTexels);
     else if (light.views == ViewsCube) view = perspective_view(light.position_ws, light.near_m, face_rotation(i), 1.0);
-    else view = perspective_view(light.position_ws, light.near_m, view_rotation(light.direction_ws), spot_tangent(light.outer_cone_rad, light.resolution, ViewGuardTexels));
-    view.resolution = light.resolution;
-    uvec2 tile = atlas_tile(light.first_view + i, columns, tile_resolution);
-    view.atlas_x = tile.x;
-    view.atlas_y = tile.y;
+    else view = perspective_view(light.position_ws, light.near_m, view_rotation(light.direction_ws), spot_tangent(light.outer_cone_rad, guarded, ViewGuardTexels));
+    if (frame.store == StoreAtlas) {
+      uvec2 tile = atlas_tile(light.first_view + i, frame.atlas_columns, frame.atlas_resolution);
+      view.resolution = light.resolution;
+      view.atlas_x = tile.x;
+      view.atlas_y = tile.y;
+    }
     view.light = used ? slot : NoIndex;
     Views(push.views).v[light.first_view + i] = view;
   }

@@ -1,0 +1,29 @@
+// Which map answers for a cluster/light pair; a part of umbrage.glsl.
+
+/// A light's map as the taps need it.
+struct Map {
+  uint first_view;
+  uint resolution;
+  float near_m;
+  uint pages;        // page pool: along a view's side
+  uint words;        // page words a view
+  uint first_word;
+};
+
+/// The map with which a light's visibility is looked up, where there is none: resolution 0.
+UMB_FN Map map_of_record(Frame frame, uint index, float near_m) {
+  if (index == NoIndex) return Map(0u, 0u, near_m, 0u, 0u, 0u);
+  MapRecord record = UmbrageMapList(UmbrageFrames(frame.address).v[0].maps).v[index];
+  return Map(record.first_view, record.resolution, near_m, record.pages, record.words, record.first_word);
+}
+
+UMB_FN uint whole_map(Frame frame, uint slot) { return UmbrageLightMapList(UmbrageFrames(frame.address).v[0].light_maps).v[slot].whole; }
+
+/// A pair has a map of its own unless it faces away; points that no depth buffer saw have the light's whole map.
+UMB_FN Map map_of_pair(Frame frame, Cluster cluster, uint i, uint slot) {
+  UmbrageFrames f = UmbrageFrames(frame.address);
+  LightRecord light = UmbrageLights(f.v[0].lights).v[slot];
+  if (f.v[0].store == StoreAtlas) return Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u);
+  uint index = cluster.first == NoIndex ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
+  return map_of_record(frame, index == NoIndex ? whole_map(frame, slot) : index, light.near_m);
+}

@@ -1,0 +1,41 @@
+// How large shadow texels are on a surface; a part of umbrage.glsl.
+
+/// One step along each axis of the shadow map used at a point, as vectors on the receiver's plane (0 for lights without one).
+void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws, out vec3 du_ws, out vec3 dv_ws) {
+  uint slot = light_slot(frame, cluster, i);
+  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
+  du_ws = vec3(0.0f);
+  dv_ws = vec3(0.0f);
+  if (record.view_count == 0u) return;
+  Map map = map_of_pair(frame, cluster, i, slot);
+  if (map.resolution == 0u) return;
+  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[record.first_view];
+  vec3 relative = position_ws - record.position_ws;
+  vec3 ray = relative;   // from the light through the point
+  vec3 step_u;
+  vec3 step_v;
+  if (record.views == ViewsOrtho) {
+    ray = -view.z_row;
+    step_u = normalize(view.x_row) * (view.side_m / float(map.resolution));
+    step_v = normalize(view.y_row) * (view.side_m / float(map.resolution));
+  } else {
+    vec3 x_axis = view.x_row * view.tangent;
+    vec3 y_axis = view.y_row * view.tangent;
+    float depth = dot(view.w_row, relative);
+    if (record.views == ViewsCube) {
+      uint face = face_of_direction(relative);
+      depth = face_coordinates(face, relative).z;
+      x_axis = face_direction(face, 1.0f, 0.0f) - face_direction(face, 0.0f, 0.0f);
+      y_axis = face_direction(face, 0.0f, 1.0f) - face_direction(face, 0.0f, 0.0f);
+    }
+    float size = texel_size_m(depth, view.tangent, map.resolution);
+    step_u = x_axis * size;
+    step_v = y_axis * size;
+  }
+  // Slid along the ray until it lies on the plane; grazing planes are cut off at a slope of 50.
+  float slope = dot(normal_ws, ray);
+  float least = 0.02f * length(ray);
+  if (abs(slope) < least) slope = slope < 0.0f ? -least : least;
+  du_ws = step_u - ray * (dot(normal_ws, step_u) / slope);
+  dv_ws = step_v - ray * (dot(normal_ws, step_v) / slope);
+}

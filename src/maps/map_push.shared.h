@@ -1,0 +1,68 @@
+// Push constants of the passes that make views and maps.
+#ifndef UMBRAGE_MAPS_PUSH_SHARED_H
+#define UMBRAGE_MAPS_PUSH_SHARED_H
+#include "maps/map_types.shared.h"
+
+UMB_NAMESPACE_BEGIN
+
+struct BuildViewsPush {    // build_views
+  uint64_t frame;
+  uint64_t lights;
+  uint64_t used;           // words per light slot
+  uint64_t counters;
+  uint64_t views;
+  uint64_t scene_bounds;   // ordered_bits
+  uint light_slots;
+  uint all_lights;         // draw maps whatever the clusters say
+};
+UMB_ASSERT_SIZE(BuildViewsPush, 56);
+
+/// Per light slot: what its clusters ask for. Resolutions are positive floats, whose bits are in their order.
+struct LightRequest {
+  uint finest;             // bits of the largest R
+  uint places;             // bit p: place p (a level, or a bucket) is asked for
+  uint buckets[16];        // exact layout: bits of the largest R in each bucket
+};
+UMB_ASSERT_SIZE(LightRequest, 72);
+
+/// Per light slot: pool units that its pages would need after 0, 1, … halvings.
+UMB_CONST uint MaxShift = 12u;
+
+UMB_CONST uint MapsExact = 1u;          // layout: exact, else levels
+UMB_CONST uint MapsPaperResolution = 2u;
+UMB_CONST uint MapsLinearBuckets = 4u;
+UMB_CONST uint MapsDropFacingAway = 8u;
+UMB_CONST uint MapsAllLights = 16u;     // every light gets a map of whole views
+
+/// Resolution of the maps that answer for points no depth buffer saw.
+UMB_CONST uint WholeResolution = 128u;
+/// Units that a workgroup of clear_pages clears.
+UMB_CONST uint ClearUnits = 1024u;
+
+struct MapsPush {
+  uint64_t frame;
+  uint64_t counters;
+  uint64_t requests;       // LightRequest per light slot
+  uint64_t pair_requests;  // bits of R per pair, 0: faces away
+  uint64_t pair_clusters;
+  uint64_t used;           // words per light slot
+  uint64_t demand;         // units [light slot][MaxShift + 1]
+  uint64_t priority;       // slots, the most important first
+  uint64_t views;
+  uint flags;
+  uint maps_per_light;
+  uint round;
+  uint light_slots;
+  uint capacity_units;
+  uint word_capacity;
+  uint receiver_capacity;
+  uint light_count;        // in `priority`
+  float undersampling;     // divides R
+  uint min_resolution;
+  uint max_resolution;
+  uint pad;
+};
+UMB_ASSERT_SIZE(MapsPush, 120);
+
+UMB_NAMESPACE_END
+#endif

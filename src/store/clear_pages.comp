@@ -1,0 +1,15 @@
+#version 460
+// Empties what of the pool this frame's pages use: 0 is farther than everything. A workgroup per ClearUnits.
+#extension GL_GOOGLE_include_directive : require
+#include "maps/map_buffers.glsl"
+layout(local_size_x = 64) in;
+layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Quads { uvec4 v[]; };
+
+const uint quads = ClearUnits * PoolUnit / 4u;
+
+void main() {
+  uint units = Counters(push.counters).counters.pool_units;
+  uint end = min((group_index() + 1u) * quads, units * (PoolUnit / 4u));
+  Quads pool = Quads(Frame(push.frame).record.pool);
+  for (uint i = group_index() * quads + gl_LocalInvocationIndex; i < end; i += 64u) pool.v[i] = uvec4(0u);
+}

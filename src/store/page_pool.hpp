@@ -1,0 +1,30 @@
+// The default store: one pool of a fixed budget, a software page table, everything decided on the device. A page is 128×128
+// texels of 32 bits, or less for coarse maps. Pages lie in the pool in the order of their words: by light, map, view and row.
+#pragma once
+#include "gpu/prefix_sum.hpp"
+#include "maps/maps.hpp"
+#include "umbrage/stats.hpp"
+
+namespace umbrage::store {
+
+/// Numbers the views of lights that cast shadows. When not even the coarsest maps of all fit, lights go without by priority,
+/// then by slot (`without`). `changed`: slots whose records changed. Returns how many views there are.
+uint32_t number_views(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, std::vector<uint32_t>& changed, std::vector<LightStatus>& without);
+
+class PagePool {
+ public:
+  static Result<PagePool> create(const gpu::PipelineFactory&);
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint64_t budget_bytes, uint32_t word_capacity, std::vector<gpu::Buffer>& retired);
+  void fill(shared::FrameRecord& frame) const { frame.pool = pool_.address(); }
+  /// Places for the marked pages (they fit), and those cleared.
+  void record(gpu::Recorder&, const maps::Maps&, const gpu::Buffer& frame, const gpu::Buffer& counters);
+  const gpu::Buffer& pool() const { return pool_; }
+  uint32_t capacity_units() const;
+
+ private:
+  gpu::Pipeline clear_;
+  gpu::PrefixSum scan_;
+  gpu::Buffer pool_, total_;
+};
+
+}  // namespace umbrage::store
