@@ -171,3 +171,6 @@ float umbrage_visibility(Frame frame, Cluster cluster, uint i, vec3 position_ws,
 }
 
 #include "lookup/footprint.glsl"
+#ifdef UMBRAGE_DEBUG
+#include "lookup/debug.glsl"
+#endif

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#define UMBRAGE_DEBUG
 #define UMBRAGE_SET 1
 #include "umbrage/shaders/umbrage.glsl"
 
