@@ -158,9 +158,15 @@ void add_output_options(CLI::App& command, SharedOptions& options) {
     if (!show) throw CLI::ValidationError("--show", show.error().message);
     options.show = *show;
   };
-  command
-      .add_option_function<std::string>("--show", take_show, "A debug picture instead of the image; list names them")
-      ->type_name("NAME");
+  auto* show = command
+                   .add_option_function<std::string>("--show", take_show,
+                                                     "A debug picture instead of the image; list names them")
+                   ->type_name("NAME");
+  const auto parse_light = [](const std::string& text) { return parse_count(text, 0, UINT32_MAX - 1); };
+  add_read(command, "--show-light", "INDEX",
+           reader(parse_light, [&](uint64_t index) { options.show_light = static_cast<uint32_t>(index); }),
+           "The light that the debug picture is about, as in --dump's lights; else it chooses")
+      ->needs(show);
   command.add_option("--stats", options.stats_file, "The last frame's statistics")->type_name("FILE.json");
   command.add_option("--trace", options.trace_file, "The last frame's passes as a trace that Perfetto opens")
       ->type_name("FILE.json");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct SharedOptions {
   std::string device;
   bool validate = false;
   Show show = Show::image;
+  std::optional<uint32_t> show_light;
   std::filesystem::path stats_file, trace_file, dump_folder;
   std::vector<IndexRange> dump_lights;  ///< Empty: all.
 };

@@ -68,6 +68,18 @@ Result<CameraOptions> camera_options(const SharedOptions& options) {
   return camera;
 }
 
+/// Can the debug picture be drawn with these settings, and does it take a light?
+Result<void> check_show(const SharedOptions& options, const umbrage::Settings& settings) {
+  const auto all = shows();
+  const auto info = std::find_if(all.begin(), all.end(), [&](const ShowInfo& i) { return i.show == options.show; });
+  const std::string name = std::string("--show ") + info->name;
+  if (info->needs == ShowNeeds::page_pool && settings.fixed.store != umbrage::Store::page_pool)
+    return invalid(name + ": needs maps made of pages: choose a preset with store=page_pool, such as default");
+  if (info->light == ShowLight::ignored && options.show_light)
+    return invalid(name + ": is not about one light: leave out --show-light");
+  return {};
+}
+
 }  // namespace
 
 Result<Scene> load_scene(const std::string& name) {
@@ -89,6 +101,7 @@ Result<Session> Session::open(const SharedOptions& options, Progress& progress) 
   // Small inputs first: their faults show before a large scene is read.
   const auto settings = choose_settings(options.settings);
   if (!settings) return settings.error();
+  if (const auto shown = check_show(options, *settings); !shown) return shown.error();
   const auto camera_choice = camera_options(options);
   if (!camera_choice) return camera_choice.error();
 
@@ -126,11 +139,15 @@ Result<void> Session::draw(uint32_t frame) {
   const std::span<const PosedLight> none;
   lights_ = active_lights(options_.scene_lights == SceneLights::used ? pose_.lights : none, added_lights_,
                           options_.irradiance_threshold, bounds_);
+  if (options_.show_light && *options_.show_light >= lights_.size())
+    return invalid("--show-light: there is no light " + std::to_string(*options_.show_light) + ": the frame has " +
+                   std::to_string(lights_.size()) + " lights, counted from 0");
   const FrameInput input{.pose = &pose_,
                          .lights = lights_,
                          .camera = camera_.at(pose_, time_s),
                          .settings = settings_.frame,
-                         .show = options_.show};
+                         .show = options_.show,
+                         .show_light = options_.show_light};
   // Lists that were too short have been sized for the next frame by this one: drawn again, the frame is whole.
   for (uint32_t repeat = 0; repeat <= kMaxRepeats; ++repeat) {
     auto report = renderer_.render(input);

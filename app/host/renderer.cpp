@@ -42,7 +42,7 @@ struct Renderer::State {
   uint32_t light_count = 0;
 
   Result<void> create_scene(const RendererDesc&, const Scene&, const Pose&);
-  Result<void> create_passes();
+  Result<void> create_passes(uint32_t max_lights);
   Result<void> begin_frame(const FrameInput&, const CameraMatrices&);
   void record(VkCommandBuffer, const FrameInput&, const CameraMatrices&);
   void bind_sets(VkCommandBuffer, VkDescriptorSet umbrage_set) const;
@@ -96,7 +96,7 @@ Result<Renderer> Renderer::create(const RendererDesc& desc, const Scene& scene) 
   if (auto made = take(ShadowScene::create(*state->gpu, desc.settings.fixed), state->shadows); !made)
     return made.error();
   if (auto made = state->create_scene(desc, scene, pose(scene, 0.0)); !made) return made.error();
-  if (auto made = state->create_passes(); !made) return made.error();
+  if (auto made = state->create_passes(desc.max_lights); !made) return made.error();
   return Renderer(std::move(state));
 }
 
@@ -115,12 +115,12 @@ Result<void> Renderer::State::create_scene(const RendererDesc& desc, const Scene
                             desc.settings.fixed.batch_triangles);
 }
 
-Result<void> Renderer::State::create_passes() {
+Result<void> Renderer::State::create_passes(uint32_t max_lights) {
   if (auto made = take(GpuTimers::create(*gpu), timers); !made) return made;
   if (auto made = take(GBufferPass::create(*gpu, layout.get(), targets), gbuffer); !made) return made;
   if (auto made = take(ShadePass::create(*gpu, layout.get(), targets), shade); !made) return made;
   if (auto made = take(PostPass::create(*gpu, layout.get()), post); !made) return made;
-  if (auto made = take(ShowPass::create(*gpu, layout.get(), targets), show); !made) return made;
+  if (auto made = take(ShowPass::create(*gpu, layout.get(), targets, max_lights), show); !made) return made;
   return take(ReadBack::create(*gpu, layout.get()), read_back);
 }
 
@@ -179,7 +179,7 @@ void Renderer::State::record(VkCommandBuffer commands, const FrameInput& input, 
   post.record_tone_map(pass);
   timers.mark(*gpu, commands, "tone_map");
   if (input.show != Show::image) {
-    show.record(pass, input.show, data.counters());
+    show.record(pass, input.show, input.show_light, data.counters());
     timers.mark(*gpu, commands, "show");
   }
   data.record_read_back(*gpu, commands);

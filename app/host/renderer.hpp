@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,9 +31,19 @@ struct ViewCamera {
   glm::mat4 world_from_camera{1};
 };
 
-enum class Show : uint8_t { image, clusters, explicit_bounds, lights_per_pixel, normals, depth };
-struct ShowInfo { Show show; const char* name; const char* summary; };
-/// Names as --show takes them: image, clusters, explicit-bounds, lights-per-pixel, normals, depth.
+enum class Show : uint8_t {
+  image, clusters, explicit_bounds, lights_per_pixel, normals, depth, resolution, texels_per_pixel, pages,
+  projection_maps, cube_projection
+};
+enum class ShowLight : uint8_t { ignored, used };   ///< What becomes of FrameInput::show_light.
+enum class ShowNeeds : uint8_t { nothing, page_pool };
+struct ShowInfo {
+  Show show;
+  const char* name;                 ///< As --show takes it.
+  const char* summary;
+  ShowLight light = ShowLight::ignored;
+  ShowNeeds needs = ShowNeeds::nothing;
+};
 std::span<const ShowInfo> shows();
 
 struct RendererDesc {
@@ -50,6 +61,7 @@ struct FrameInput {
   ViewCamera camera;
   umbrage::FrameSettings settings;
   Show show = Show::image;
+  std::optional<uint32_t> show_light;   ///< Index in lights that the debug picture is about; else it chooses.
 };
 
 struct FrameReport {

@@ -69,10 +69,12 @@ Result<Targets> Targets::create(const GpuContext& context, uint32_t width, uint3
     auto image = DeviceImage::create(context, {infos[i].name, infos[i].format, width, height, 1, infos[i].usage});
     if (!image) return image.error();
     targets.images_[i] = std::move(image).value();
+    const VkShaderStageFlags lines =
+        Target{static_cast<uint8_t>(i)} == Target::depth ? VK_SHADER_STAGE_FRAGMENT_BIT : 0;
     bindings[i] = {
         i,
         stored(Target{static_cast<uint8_t>(i)}) ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-        1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+        1, VK_SHADER_STAGE_COMPUTE_BIT | lines, nullptr};
   }
   auto set = DescriptorSet::create(context, bindings);
   if (!set) return set.error();

@@ -31,6 +31,10 @@ Arguments room(const std::string& command, const Arguments& more) {
   return arguments;
 }
 
+constexpr const char* kShows[] = {"clusters",   "explicit-bounds",  "lights-per-pixel", "normals",         "depth",
+                                  "resolution", "texels-per-pixel", "pages",            "projection-maps", "cube-projection"};
+constexpr const char* kShowsOfLights[] = {"resolution", "texels-per-pixel", "pages", "projection-maps"};
+
 Outcome run_well(const Arguments& arguments) {
   Outcome outcome = run_program(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -279,10 +283,65 @@ TEST(Render, DumpLightsChoosesRows) {
 
 TEST(Render, EveryDebugPictureDiffersFromTheImage) {
   const TemporaryFolder folder;
+  Names different;
   run_well(room("render", {"-o", folder.file("image.png")}));
-  for (const char* show : {"clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth"}) {
+  different.insert(read_all(folder.file("image.png")));
+  for (const char* show : kShows) {
     run_well(room("render", {"-o", folder.file("show.png"), "--show", show}));
-    EXPECT_NE(pixels_of(folder.file("show.png")), pixels_of(folder.file("image.png"))) << show;
+    EXPECT_TRUE(different.insert(read_all(folder.file("show.png"))).second) << show;
+    run_well(room("render", {"-o", folder.file("again.png"), "--show", show}));
+    EXPECT_EQ(read_all(folder.file("again.png")), read_all(folder.file("show.png"))) << show;
+  }
+}
+
+TEST(Render, DebugPicturesOfMapsAreAboutTheLightAskedFor) {
+  const TemporaryFolder folder;
+  for (const char* show : kShowsOfLights) {
+    Names different;
+    for (const char* light : {"0", "1", "3"}) {
+      run_well(room("render", {"-o", folder.file("show.png"), "--show", show, "--show-light", light}));
+      EXPECT_TRUE(different.insert(read_all(folder.file("show.png"))).second) << show << ' ' << light;
+    }
+  }
+  const auto refuse = [&](const Arguments& more, const char* text) {
+    Arguments arguments = room("render", {"-o", folder.file("none.png")});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder.file("none.png")));
+  };
+  refuse({"--show", "pages", "--show-light", "4"}, "there is no light 4");
+  refuse({"--show", "depth", "--show-light", "0"}, "not about one light");
+  for (const char* show : {"pages", "projection-maps"}) refuse({"--show", show, "--preset", "fixed-cubes"}, "store=page_pool");
+}
+
+TEST(Render, FixedCubesHaveDebugPicturesOfTheirOneResolution) {
+  const TemporaryFolder folder;
+  for (const char* show : {"resolution", "texels-per-pixel"}) {
+    Names different;
+    for (const char* side : {"64", "256"}) {
+      const std::string smallest = std::string("min_resolution=") + side, largest = std::string("max_resolution=") + side;
+      run_well(room("render", {"-o", folder.file("show.png"), "--preset", "fixed-cubes", "--set", smallest, "--set", largest,
+                               "--show", show}));
+      different.insert(read_all(folder.file("show.png")));
+    }
+    // The cube is the light's, whatever its map.
+    EXPECT_EQ(different.size(), 2u) << show;
+  }
+  run_well(room("render", {"-o", folder.file("show.png"), "--preset", "fixed-cubes", "--show", "cube-projection"}));
+}
+
+TEST(Render, EveryPixelSeesAMarkedPage) {
+  const TemporaryFolder folder;
+  for (const char* light : {"0", "1", "2", "3"}) {
+    run_well(room("render", {"-o", folder.file("pages.png"), "--show", "pages", "--show-light", light}));
+    const std::vector<uint8_t> pixels = pixels_of(folder.file("pages.png"));
+    size_t unmarked = 0;   // Magenta, dimmed where the image is dark.
+    for (size_t i = 0; i < pixels.size(); i += 3)
+      unmarked += pixels[i] > 100 && pixels[i] == pixels[i + 2] && pixels[i + 1] == 0;
+    EXPECT_EQ(unmarked, 0u) << light;
   }
 }
 
@@ -378,7 +437,7 @@ TEST(Validation, IsSilentOnEveryWriterAndPicture) {
   for (const auto& [preset, writer] : writers)
     run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--frames", "3", "--preset", preset, "--set", writer, "--dump",
                              folder.file("d")}));
-  run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--show", "clusters"}));
+  for (const char* show : kShows) run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--show", show}));
 }
 
 TEST(Info, SaysWhatEachDeviceCanDo) {

@@ -45,7 +45,8 @@ TEST(Usage, EverySharedOptionIsInTheHelp) {
           "--time",     "--frames",          "--fps",    "--lights",      "--random-lights",
           "--seed",     "--no-scene-lights", "--preset", "--set",         "--budget",
           "--device",   "--validate",        "--show",   "--path",        "--trace",
-          "--settings", "--stats",           "--dump",   "--dump-lights", "--irradiance-threshold"})
+          "--settings", "--stats",           "--dump",   "--dump-lights", "--irradiance-threshold",
+          "--show-light"})
       EXPECT_NE(outcome.out.find(std::string(option) + " "), std::string::npos) << command << ' ' << option;
   }
 }
@@ -53,7 +54,8 @@ TEST(Usage, EverySharedOptionIsInTheHelp) {
 TEST(Usage, ShowListNamesTheDebugPicturesWithoutAScene) {
   const Outcome outcome = run_program({"render", "--show", "list"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* name : {"image", "clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth"})
+  for (const char* name : {"image", "clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth", "resolution",
+                           "texels-per-pixel", "pages", "projection-maps", "cube-projection"})
     EXPECT_TRUE(std::regex_search(outcome.out, std::regex("(^|\n)" + std::string(name) + " "))) << outcome.out;
 }
 

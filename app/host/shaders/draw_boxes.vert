@@ -6,7 +6,7 @@
 #include "umbrage/shaders/umbrage.glsl"
 #include "palette.glsl"
 
-layout(push_constant, scalar) uniform Push { FramePush push; };
+layout(push_constant, scalar) uniform Push { ShowPush push; };
 layout(location = 0) out vec3 color;
 
 // Edge e runs along axis e / 4 from the corner that the two low bits of e choose on the other axes.

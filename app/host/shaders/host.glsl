@@ -12,6 +12,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Pri
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Materials { GpuMaterial at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lights { GpuLight at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Counters { GpuCounters data; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Subject { GpuSubject data; GpuLightUse uses[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Floats { float at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Words { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Vec2s { vec2 at[]; };

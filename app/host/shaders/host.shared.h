@@ -96,13 +96,35 @@ struct GpuFrame {
   uint64_t umbrage;
 };
 
+/// What a debug picture is about, chosen on the device. Counts per light (GpuLightUse) follow it.
+struct GpuSubject {
+  uint light;         // Host index, or NoLight.
+  uint slot;          // umbrage's.
+  uint clusters;      // That list the light.
+  vec3 light_ws;
+  vec3 box_low, box_high;  // Of the cluster under the picture's centre; low > high: there is none.
+};
+
+struct GpuLightUse {
+  uint clusters, slot;
+};
+
+const uint NoLight = 0xffffffffu;
+
 /// Push constants of the passes that need no more than the frame and a few numbers.
 struct FramePush {
   uint64_t frame;
   uint64_t output_buffer;   // read_*: where the result goes.
   uint64_t output_band;     // read_visibility: likewise for band_px; 0 = not wanted.
   uint first, count;        // read_visibility: lights; read_surface: first = 0 positions, 1 normals.
+};
+
+/// Push constants of debug pictures.
+struct ShowPush {
+  uint64_t frame, subject;
   uint show;                // ShowClusters …
+  uint light;               // Host index of the light asked for, or NoLight: the brightest.
+  uint title[16];           // Characters, the first in the low byte; 0 ends it.
 };
 
 const uint ShowClusters = 1u;
@@ -110,6 +132,11 @@ const uint ShowExplicitBounds = 2u;
 const uint ShowLightsPerPixel = 3u;
 const uint ShowNormals = 4u;
 const uint ShowDepth = 5u;
+const uint ShowResolution = 6u;
+const uint ShowTexelsPerPixel = 7u;
+const uint ShowPages = 8u;
+const uint ShowProjectionMaps = 9u;
+const uint ShowCubeProjection = 10u;
 
 /// Morph, then skin, one thread a vertex.
 struct DeformPush {
@@ -126,7 +153,8 @@ struct DeformPush {
 static_assert(sizeof(GpuTexture) == 32 && sizeof(GpuMaterial) == 176 && sizeof(GpuPrimitive) == 40);
 static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 52 && sizeof(GpuCounters) == 36 + 4 * 256);
 static_assert(offsetof(GpuFrame, instances) == 176 && sizeof(GpuFrame) == 224);
-static_assert(sizeof(FramePush) == 40 && sizeof(DeformPush) == 88);
+static_assert(sizeof(FramePush) == 32 && sizeof(ShowPush) == 88 && sizeof(DeformPush) == 88);
+static_assert(sizeof(GpuSubject) == 48 && sizeof(GpuLightUse) == 8);
 }  // namespace app::gpu
 #endif
 #endif

@@ -1,4 +1,4 @@
-// Debug pictures instead of the image: clusters, lights per pixel, normals, depth; for explicit bounds, it dimmed.
+// Debug pictures instead of the image: clusters, lights per pixel, normals, depth; for bounds and cubes, it dimmed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
@@ -8,40 +8,20 @@
 #include "palette.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(push_constant, scalar) uniform Push { FramePush push; };
+layout(push_constant, scalar) uniform Push { ShowPush push; };
+#include "legend.glsl"
 
-// Legend of the heat map: a bar with 0 and the largest count beside it.
-const ivec2 bar_size = ivec2(256, 14);
-const ivec2 bar_margin = ivec2(40, 16);
-const int glyph_scale = 3;
-// 3x5 digits, rows from the top, the high bit first.
-const uint digits[10] =
-    uint[](0x7b6fu, 0x2c97u, 0x73e7u, 0x73cfu, 0x5bc9u, 0x79cfu, 0x79efu, 0x7249u, 0x7befu, 0x7bcfu);
-
-/// Is the pixel inside the decimal number whose top left corner is at `corner`?
-bool in_number(ivec2 pixel, ivec2 corner, uint number) {
-  ivec2 cell = pixel - corner;
-  if (cell.x < 0 || cell.y < 0) return false;
-  cell /= glyph_scale;
-  int length = 1;
-  for (uint rest = number / 10u; rest > 0u; rest /= 10u) ++length;
-  int place = cell.x / 4, column = cell.x % 4;
-  if (cell.y >= 5 || place >= length || column == 3) return false;
-  for (int i = place + 1; i < length; ++i) number /= 10u;
-  return (digits[number % 10u] >> (14 - (cell.y * 3 + column)) & 1u) != 0u;
-}
-
-vec3 with_legend(ivec2 pixel, ivec2 size, uint most, vec3 under) {
-  ivec2 corner = ivec2(bar_margin.x, size.y - bar_margin.y - bar_size.y);
-  ivec2 in_bar = pixel - corner;
-  if (all(greaterThanEqual(in_bar, ivec2(0))) && all(lessThan(in_bar, bar_size))) {
-    return turbo(float(in_bar.x) / float(bar_size.x - 1));
-  }
-  if (in_number(pixel, corner - ivec2(6 * glyph_scale, 0), 0u)) return vec3(1.0);
-  if (in_number(pixel, corner + ivec2(bar_size.x + 3 * glyph_scale, 0), most)) return vec3(1.0);
-  ivec2 frame = ivec2(3);
-  bool near = all(greaterThanEqual(in_bar, -frame)) && all(lessThan(in_bar, bar_size + frame));
-  return near ? vec3(0.0) : under;
+/// A bar from 0 to the largest count.
+vec3 with_counts(ivec2 pixel, ivec2 size, uint most, vec3 under) {
+  int scale = text_scale(size), pad = 3 * scale;
+  ivec2 bar = ivec2(84, 5) * scale;
+  ivec2 zero = ivec2(2 * pad, size.y - 5 * pad - text_height(scale) - bar.y);
+  ivec2 corner = zero + ivec2(2 * char_width(scale), 0);
+  ivec2 last = corner + ivec2(bar.x + char_width(scale), 0);
+  ivec2 whole = ivec2(last.x - zero.x + digits_of(most) * char_width(scale), bar.y);
+  if (!in_box(pixel, zero - pad, whole + 2 * pad)) return under;
+  if (in_box(pixel, corner, bar)) return turbo(float(pixel.x - corner.x) / float(bar.x - 1));
+  return in_number(pixel, zero, scale, 0u) || in_number(pixel, last, scale, most) ? legend_ink : legend_paper;
 }
 
 vec3 show_clusters(Frame frame, ivec2 pixel, float depth) {
@@ -59,8 +39,7 @@ vec3 show_lights(Frame frame, ivec2 pixel, float depth, ivec2 size) {
     uint count = umbrage_cluster(shadows, vec2(pixel) + 0.5, depth).count;
     color = turbo(float(count) / float(max(most, 1u)));
   }
-  bool room = size.x >= 2 * bar_size.x && size.y >= 8 * bar_size.y;
-  return room ? with_legend(pixel, size, most, color) : color;
+  return with_counts(pixel, size, most, color);
 }
 
 /// White near, black far, equal steps for equal ratios of distance (equal distances when orthographic).
@@ -71,6 +50,9 @@ vec3 show_depth(Frame frame, ivec2 pixel, float depth) {
                                               : log(distance_m / range_m.x) / log(range_m.y / range_m.x);
   return vec3(mix(1.0, 0.1, clamp(share, 0.0, 1.0)));
 }
+
+/// The light that the device has chosen.
+uint title_number() { return push.show == ShowCubeProjection ? Subject(push.subject).data.light : NoNumber; }
 
 void main() {
   Frame frame = Frame(push.frame);
@@ -86,7 +68,7 @@ void main() {
   float depth = texelFetch(depth_target, pixel, 0).x;
 
   vec3 shown = vec3(0.0);
-  if (push.show == ShowExplicitBounds) {
+  if (push.show == ShowExplicitBounds || push.show == ShowCubeProjection) {
     shown = imageLoad(picture_target, pixel).rgb * 0.45;
   } else if (push.show == ShowLightsPerPixel) {
     shown = show_lights(frame, pixel, depth, size);
@@ -95,5 +77,6 @@ void main() {
     if (push.show == ShowNormals) shown = from_octahedral(texelFetch(geometric_normal_target, pixel, 0).xy) * 0.5 + 0.5;
     if (push.show == ShowDepth) shown = show_depth(frame, pixel, depth);
   }
+  if (title_char(0) != 0u) shown = with_title(pixel, size, title_number(), shown);
   imageStore(picture_target, pixel, vec4(shown, 1.0));
 }
