@@ -47,9 +47,8 @@ void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) 
   map_culling.record_count(recorder, cull);
   for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
     map_culling.record_round(recorder, cull, round);
-    gpu::Scope scope(recorder, "raster");
     const raster::PageWriterInputs write{scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(),
-                                         map_culling.items(), map_culling.draw_counts(), map_culling.capacity(),
+                                         map_culling.items(), map_culling.draw_counts(), map_culling.capacity(), &counters,
                                          plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
     if (plan.settings.writer == Writer::fragments) page_fragments.record(recorder, write, plan.settings.max_resolution);
     else page_raster.record(recorder, write);

@@ -126,6 +126,7 @@ void ShadowSystem::State::read_page_statistics(const shared::FrameReport& report
   const auto grown = [](uint32_t have, uint32_t found) { return found > have ? found + found / 4 : have; };
   statistics.overflows += uint64_t(counters.maps_found > map_sizes.maps) + uint64_t(counters.page_words_found > map_sizes.words) +
                           uint64_t(counters.receiver_views_found > map_sizes.receiver_views);
+  large_triangles = std::min(grown(large_triangles, counters.large_triangles), kMaxLargeTriangles);
   map_sizes.maps = grown(map_sizes.maps, counters.maps_found);
   map_sizes.words = grown(map_sizes.words, counters.page_words_found);
   map_sizes.receiver_views = grown(map_sizes.receiver_views, counters.receiver_views_found);
@@ -204,7 +205,7 @@ Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
   if (auto ok = frame->map_culling.reserve(*device, *memory, map_sizes.maps, capacity, outgrown); !ok) return ok;
   if (auto ok = frame->map_culling.prepare(*pipelines, desc.settings.caster_culling); !ok) return ok;
   if (desc.settings.writer == Writer::fragments) return frame->page_fragments.reserve(*device, *memory);
-  return frame->page_raster.reserve(*device, *memory, kLargeTriangles, uint64_t(settings.budget_mib) << 20, outgrown);
+  return frame->page_raster.reserve(*device, *memory, large_triangles, uint64_t(settings.budget_mib) << 20, outgrown);
 }
 
 /// (batch, view) pairs of fixed cubes, (batch, map) pairs of the page pool.

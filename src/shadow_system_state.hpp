@@ -28,7 +28,7 @@ struct ShadowSystem::State {
   static constexpr uint64_t kMaxGrownPairs = 1u << 19;   // 80 MB; more pairs take more rounds
 
   static constexpr uint64_t kMaxGridBytes = 64u << 20;   // of farthest receivers; beyond it their grids are coarser
-  static constexpr uint32_t kLargeTriangles = 1u << 16;  // queued at once; more are drawn by a thread each
+  static constexpr uint32_t kMaxLargeTriangles = 1u << 19;  // queued at once, 348 bytes each; more are drawn by a thread each
 
   ~State();
   Result<void> create_sets(uint32_t frames_in_flight);
@@ -64,6 +64,7 @@ struct ShadowSystem::State {
   FrameSlot* current = nullptr;     // being recorded
   FramePlan plan;
   store::AtlasLayout layout;        // fixed cubes
+  uint32_t large_triangles = 1u << 17;  // page pool: room in the queue, grown from what frames report
   uint32_t views = 0;               // of all lights
   maps::Maps::Sizes map_sizes;      // page pool: grown from what frames report
   std::array<uint32_t, 2> laid_out_for{};   // min and max resolution

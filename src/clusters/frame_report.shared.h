@@ -35,8 +35,10 @@ struct FrameCounters {
   uint pool_units_asked;     // that those of the first round would
   uint fitted;               // 1: they fit
   uint lights_shifted;       // lights that are coarser than they asked
+  uint large_triangles;      // of the round with most that the page rasteriser would queue
+  uint pad;
 };
-UMB_ASSERT_SIZE(FrameCounters, 184);
+UMB_ASSERT_SIZE(FrameCounters, 192);
 
 /// What lookups count, where the host asks for it (UMBRAGE_COUNT_TAPS).
 struct TapCounts {
@@ -50,7 +52,7 @@ struct FrameReport {
   TapCounts taps;            // written by lookups
   FrameCounters counters;
 };
-UMB_ASSERT_SIZE(FrameReport, 192);
+UMB_ASSERT_SIZE(FrameReport, 200);
 
 /// Words of the used lights: bits.
 UMB_CONST uint LightIsUsed = 1u;

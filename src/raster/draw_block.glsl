@@ -1,35 +1,57 @@
 // One thread draws a triangle's texels in a block of a page. Includer: `masked`, masks[], push.
 #include "raster/page_raster_buffers.glsl"
 
-/// Perspective texture coordinates at a texel, with the footprint of the texel for the level of detail.
-bool is_cut_out(RasterTriangle t, vec3 weights) {
-  if (t.batch == NoIndex) return false;
-  BatchRecord batch = Batches(push.batches).v[t.batch];
-  float q = dot(weights, t.q);
-  vec2 uv = vec2(dot(weights, t.u), dot(weights, t.v)) / q;
+/// Level of detail of a triangle's mask: that of a texel at its middle.
+float mask_level(RasterTriangle t) {
+  float q = t.q.x + t.q.y + t.q.z;
+  vec2 uv = vec2(t.u.x + t.u.y + t.u.z, t.v.x + t.v.y + t.v.z) / q;
   vec3 x = vec3(steps_x(t));
   vec3 y = vec3(steps_y(t));
-  vec2 across = (vec2(dot(x, t.u), dot(x, t.v)) - uv * dot(x, t.q)) / q;
-  vec2 down = (vec2(dot(y, t.u), dot(y, t.v)) - uv * dot(y, t.q)) / q;
-  float alpha = textureGrad(masks[nonuniformEXT(batch.mask)], uv, across, down).a;
-  return alpha * batch.alpha_factor < batch.alpha_cutoff;
+  // Weights change by a step from texel to texel; at the middle each is a third of their constant sum.
+  float third = (float(t.x1 - t.x0) * float(t.y2 - t.y0) - float(t.y1 - t.y0) * float(t.x2 - t.x0)) / (3.0 * float(SubTexels));
+  vec2 size = vec2(textureSize(masks[nonuniformEXT(Batches(push.batches).v[t.batch].mask)], 0)) / (q * third);
+  vec2 across = (vec2(dot(x, t.u), dot(x, t.v)) - uv * dot(x, t.q)) * size;
+  vec2 down = (vec2(dot(y, t.u), dot(y, t.v)) - uv * dot(y, t.q)) * size;
+  return 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
 }
 
-/// Texels first … last, which lie in one page that begins at `origin` in the pool.
+/// Perspective texture coordinates at a texel, looked up in the mask.
+bool is_cut_out(RasterTriangle t, vec3 weights, float level) {
+  if (t.batch == NoIndex) return false;
+  BatchRecord batch = Batches(push.batches).v[t.batch];
+  vec2 uv = vec2(dot(weights, t.u), dot(weights, t.v)) / dot(weights, t.q);
+  return textureLod(masks[nonuniformEXT(batch.mask)], uv, level).a * batch.alpha_factor < batch.alpha_cutoff;
+}
+
+/// Draws a triangle's texels first … last, which lie in one page that begins at `origin` in the pool. Rows are cut to where
+/// the edges can be inside; the exact test decides.
 void draw_block(Uints pool, RasterTriangle t, uint page_side, uint origin, ivec2 first, ivec2 last, ivec3 edges, vec3 fractions) {
   ivec3 step_x = steps_x(t);
+  ivec3 step_y = steps_y(t);
+  vec3 texels_per_unit = 1.0 / vec3(max(abs(step_x), ivec3(1)));
+  float level = masked && t.batch != NoIndex ? mask_level(t) : 0.0;
   int width = last.x - first.x + 1;
-  ivec3 step_row = steps_y(t) - step_x * (width - 1);
-  uint at = origin + uint(first.y) % PageSide * page_side + uint(first.x) % PageSide;
-  int column = 0;
-  for (int left = width * (last.y - first.y + 1); left > 0; --left) {
-    if ((edges.x | edges.y | edges.z) >= 0) {
-      uint key = depth_key(t, edges, fractions);
-      if (key > pool.v[at] && !(masked && is_cut_out(t, vec3(edges) + fractions))) atomicMax(pool.v[at], key);
+  uint row = origin + uint(first.y) % PageSide * page_side + uint(first.x) % PageSide;
+  for (int y = first.y; y <= last.y; ++y) {
+    // An edge that rises is passed at -edge / step, one that falls is left there.
+    vec3 crossing = clamp(vec3(edges) * texels_per_unit, vec3(-4096.0), vec3(4096.0));
+    int begin = 0;
+    int end = width;
+    for (int i = 0; i < 3; ++i) {
+      if (step_x[i] > 0) begin = max(begin, int(-crossing[i]));
+      else if (edges[i] < 0) end = 0;
+      else if (step_x[i] < 0) end = min(end, int(crossing[i]) + 2);
     }
-    bool turns = ++column == width;
-    if (turns) column = 0;
-    edges += turns ? step_row : step_x;
-    at += turns ? page_side - uint(width) + 1u : 1u;
+    ivec3 at = edges + step_x * begin;
+    for (int x = begin; x < end; ++x) {
+      if ((at.x | at.y | at.z) >= 0) {
+        uint key = depth_key(t, at, fractions);
+        uint texel = row + uint(x);
+        if (key > pool.v[texel] && !(masked && is_cut_out(t, vec3(at) + fractions, level))) atomicMax(pool.v[texel], key);
+      }
+      at += step_x;
+    }
+    edges += step_y;
+    row += page_side;
   }
 }

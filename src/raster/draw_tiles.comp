@@ -27,10 +27,11 @@ void main() {
     ivec3 edges = share.edges + steps_x(t) * own.x + step_y * own.y;
     ivec3 most = edges + max(step_y, ivec3(0)) * int(TileRows - 1u);
     if (floatBitsToUint(t.z_max) <= farthest || (most.x | most.y | most.z) < 0) continue;
+    float level = masked && t.batch != NoIndex ? mask_level(t) : 0.0;
     for (uint row = 0u; row < TileRows; ++row, edges += step_y) {
       if ((edges.x | edges.y | edges.z) < 0) continue;
       uint key = depth_key(t, edges, share.fractions);
-      if (key > nearest[row] && !(masked && is_cut_out(t, vec3(edges) + share.fractions))) nearest[row] = key;
+      if (key > nearest[row] && !(masked && is_cut_out(t, vec3(edges) + share.fractions, level))) nearest[row] = key;
     }
     farthest = nearest[0];
     for (uint row = 1u; row < TileRows; ++row) farthest = min(farthest, nearest[row]);

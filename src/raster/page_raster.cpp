@@ -94,6 +94,7 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
                               .nodes = nodes_.address(),
                               .heads = heads_.address(),
                               .tiles = tiles_.address(),
+                              .counters = in.counters ? in.counters->address() : 0,
                               .item_capacity = in.item_capacity,
                               .large_capacity = large_capacity_,
                               .node_capacity = node_capacity_,
@@ -101,6 +102,7 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
   const auto plan = [&](uint32_t step) {
     gpu::Pass pass = recorder.pass("plan dispatches");
     pass.read(in.counts);
+    if (in.counters) pass.write(*in.counters);
     pass.write(arguments_);
     pass.write(appended_);
     push.flags = step;
@@ -120,6 +122,7 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
   }
   plan(shared::PlanItems);
   {
+    gpu::Scope scope(recorder, "rasterize triangles");
     gpu::Pass pass = recorder.pass("rasterize triangles");
     read_places(pass);
     for (const gpu::Buffer* buffer : {&in.views, &in.items, &in.counts}) pass.read(*buffer);
@@ -131,6 +134,7 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
   }
   plan(shared::PlanTriangles);
   {
+    gpu::Scope scope(recorder, "bin triangles");
     gpu::Pass pass = recorder.pass("bin triangles");
     read_places(pass);
     pass.read(triangles_), pass.read(in.views);
@@ -138,6 +142,7 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
     pass.dispatch_indirect(bin_[masked], push, arguments_, offsetof(shared::RasterArguments, triangles));
   }
   plan(shared::PlanTiles);
+  gpu::Scope scope(recorder, "draw tiles");
   gpu::Pass pass = recorder.pass("draw tiles");
   read_places(pass);
   for (const gpu::Buffer* buffer : {&appended_, &triangles_, &nodes_, &heads_, &tiles_}) pass.read(*buffer);

@@ -5,6 +5,7 @@ UMB_ARRAY(RasterTriangles, RasterTriangle, 4);
 UMB_ARRAY(TileNodes, TileNode, 4);
 UMB_ARRAY(RasterTiles, RasterTile, 4);
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Arguments { RasterArguments v; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameCount { FrameCounters v; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Appended { RasterCounts v; };
 
 /// Number of the workgroup in a dispatch that plan_dispatches has folded.

@@ -21,6 +21,7 @@ void main() {
   } else if (push.flags == PlanTriangles) {
     uvec2 groups = groups_of(min(appended.v.triangles, push.large_capacity));
     arguments.v.triangles = uint[](groups.x, groups.y, 1u);
+    if (push.counters != 0ul) atomicMax(FrameCount(push.counters).v.large_triangles, appended.v.triangles);
   } else {
     uvec2 groups = groups_of(appended.v.tiles);
     arguments.v.tiles = uint[](groups.x, groups.y, 1u);

@@ -69,12 +69,13 @@ struct PageRasterPush {      // plan_dispatches, rasterize_triangles, bin_triang
   uint64_t nodes;            // TileNode
   uint64_t heads;            // first node of each tile, or NoIndex
   uint64_t tiles;            // RasterTile
+  uint64_t counters;         // plan_dispatches: FrameCounters, or 0
   uint item_capacity;        // masked items begin there
   uint large_capacity;
   uint node_capacity;
   uint flags;                // plan_dispatches: PlanItems, …; others: TestReceivers or 0
 };
-UMB_ASSERT_SIZE(PageRasterPush, 120);
+UMB_ASSERT_SIZE(PageRasterPush, 128);
 
 /// Triangles, and tiles of large ones, are drawn only where and in front of what receives (the receiver grid).
 UMB_CONST uint TestReceivers = 1u;

@@ -130,7 +130,7 @@ void PageRig::list_items(uint32_t seed, bool by_face) {
 }
 
 raster::PageWriterInputs PageRig::inputs() const {
-  return {scene_, frame_, views_, map_buffer_, page_bits_, page_first_, pool_, item_buffer_, counts_, capacity_};
+  return {scene_, frame_, views_, map_buffer_, page_bits_, page_first_, pool_, item_buffer_, counts_, capacity_, nullptr, nullptr};
 }
 
 uint32_t PageRig::max_resolution() const {
