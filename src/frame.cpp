@@ -50,8 +50,12 @@ void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) 
     const raster::PageWriterInputs write{scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(),
                                          map_culling.items(), map_culling.draw_counts(), map_culling.capacity(), &counters,
                                          plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
-    if (plan.settings.writer == Writer::fragments) page_fragments.record(recorder, write, plan.settings.max_resolution);
-    else page_raster.record(recorder, write);
+    if (plan.settings.writer == Writer::fragments) {
+      gpu::Scope scope(recorder, "raster fragments");
+      page_fragments.record(recorder, write, plan.settings.max_resolution);
+    } else {
+      page_raster.record(recorder, write);
+    }
   }
 }
 
