@@ -17,18 +17,20 @@ parser.add_argument("--only", choices=("shadows", "light_lists", "recording", "w
 options = parser.parse_args()
 program, scenes, rounds = options.program, options.scenes, options.rounds
 device = None
+# One cube map a light; casters drawn to the faces that their boxes meet.
+first_form = ["--preset", "fixed-cubes", "--set", "caster_culling=view_mask"]
 
 
 def compared(*arguments, size="1280x720"):
     global device
-    run = subprocess.run([program, "compare", *arguments, "--size", size], check=True, stdout=subprocess.PIPE)
+    run = subprocess.run([program, "compare", arguments[0], *first_form, *arguments[1:], "--size", size], check=True, stdout=subprocess.PIPE)
     result = json.loads(run.stdout)
     device = result["driver"]
     return result
 
 
 def shadows():
-    """Every scene, camera and preset against the ray tracer."""
+    """Every scene and camera against the ray tracer."""
     print("\n## Shadows against the ray tracer (1280×720, fractions of the evaluated pairs)\n")
     print("| scene | lights | map | pairs | wrong outside texel band | outside 3 pixels | inside 3 pixels |\n|---|---|---|---|---|---|---|")
     files = {"sponza": ["sponza/sponza.gltf", "--lights", f"{scenes}/sponza/lights_65.json"], "accident": ["nexuiz_accident/accident.gltf"],
@@ -37,13 +39,14 @@ def shadows():
              "necropolis": ["zad_necropolis/necropolis.gltf", "--lights", f"{scenes}/zad_necropolis/lights_356.json"]}
     cases = [(f"{name}, camera {camera}", scene + ["--camera", str(camera)])
              for name, scene in files.items() for camera in range(2 if name == "necropolis" else 3)]
-    cases += [(f"{name}, fixed-cubes", files[name] + ["--preset", "fixed-cubes"]) for name in ("sponza", "dieselpower")]
+    cases += [(f"{name}, casters to all faces", files[name] + ["--set", "caster_culling=light_volume"]) for name in ("sponza", "dieselpower")]
     cases += [(f"hall_{lights}", [f"hall/hall_{lights}.glb", "--time", "1"]) for lights in (8, 65, 256)]
     cases += [("house, 8 random lights", ["lights_and_masks/house.glb", "--random-lights", "8"])]
     cases += [(name, [f"lights_and_masks/{name}", "--time", "1.3"])
               for name in ("test_lights.gltf", "multiple_animated_lights.gltf", "Lights.glb", "Cubes.glb")]
     cases += [(f"{name} at {time} s, 8 random lights", [f"animated/{name}", "--time", time, "--random-lights", "8"])
-              for name in ("CesiumMan.glb", "Fox.glb", "Stag.gltf", "MorphStressTest.gltf", "SimpleSkin.gltf") for time in ("0.3", "0.7", "1.3")]
+              for name in ("CesiumMan.glb", "Fox.glb", "Stag.gltf", "MorphStressTest.gltf", "SimpleSkin.gltf")
+              for time in ("0.3", "0.4", "0.7", "1.3") if time != "0.4" or name == "Fox.glb"]   # Fox at 0.4 s is the worst that is known
     for name, (scene, *arguments) in cases:
         d = compared(f"{scenes}/{scene}", *arguments)
         print(f"| {name} | {d['lights']:,} | {d['map_resolution']}² | {d['pairs']['evaluated']:,} | {d['wrong_outside_texel_band']:.3%} | "
@@ -53,7 +56,7 @@ def shadows():
 def stats(*arguments, frames=3, size="640x360"):
     global device
     with tempfile.TemporaryDirectory() as folder:
-        command = [program, "render", *arguments, "--size", size, "--frames", str(frames),
+        command = [program, "render", arguments[0], *first_form, *arguments[1:], "--size", size, "--frames", str(frames),
                    "-o", f"{folder}/out.png", "--stats", f"{folder}/stats.json"]
         subprocess.run(command, check=True)
         with open(f"{folder}/stats.json", encoding="utf-8") as file:
@@ -102,17 +105,18 @@ def hall():
 
 def writers():
     print("\n## Writers and culling (GPU ms of the shadow passes, 640×360)\n")
-    print("| scene | fixed-cubes | default | default, pass per view | triangles, fixed-cubes / default |\n|---|---|---|---|---|")
+    print("| scene | all faces | faces met | faces met, pass per view | triangles, all faces / faces met |\n|---|---|---|---|---|")
     for name, scene in (("houses", ["builtin:houses"]), ("sponza", [f"{scenes}/sponza/sponza.gltf", "--lights", f"{scenes}/sponza/lights_65.json"])):
         drawn = {}
         host = ("deform", "gbuffer", "shade", "blend", "exposure", "tone_map")
 
         def shadow(s):
-            drawn[s["preset"], s["settings"]["writer"]] = s["triangles_drawn"]
+            drawn[s["settings"]["caster_culling"]] = s["triangles_drawn"]
             return sum(ms for passed, ms in s["passes"].items() if passed not in host)
-        got = medians({"fixed": scene + ["--preset", "fixed-cubes"], "default": scene, "traditional": scene + ["--set", "writer=traditional"]}, shadow)
-        ratio = drawn["fixed-cubes", "multi_draw"] / drawn["default", "multi_draw"]
-        print(f"| {name} | {got['fixed']:.0f} | {got['default']:.0f} | {got['traditional']:.0f} | {ratio:.2f} |", flush=True)
+        got = medians({"all": scene + ["--set", "caster_culling=light_volume"], "met": scene,
+                       "per_view": scene + ["--set", "writer=traditional"]}, shadow)
+        ratio = drawn["light_volume"] / drawn["view_mask"]
+        print(f"| {name} | {got['all']:.0f} | {got['met']:.0f} | {got['per_view']:.0f} | {ratio:.2f} |", flush=True)
 
 
 for table in (shadows, light_lists, recording, writers, hall):
