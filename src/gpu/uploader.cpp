@@ -43,27 +43,30 @@ Result<void> Uploader::begin(const Device& device, Memory& memory, VkDeviceSize 
 }
 
 std::byte* Uploader::stage(VkDeviceSize bytes, VkDeviceAddress* address) {
+  used_ = (used_ + 15) & ~VkDeviceSize(15);
   assert(used_ + bytes <= staging_.size());
   std::byte* room = staging_.mapped() + used_;
   if (address) *address = staging_.address() + used_;
-  used_ += (bytes + 15) & ~VkDeviceSize(15);
+  used_ += bytes;
   return room;
 }
 
 void Uploader::copy(const Buffer& target, VkDeviceSize offset, const void* data, VkDeviceSize bytes) {
   if (bytes == 0) return;
-  const VkDeviceSize at = used_;
-  std::memcpy(stage(bytes), data, bytes);
   if (runs_.empty() || runs_.back().target != &target) runs_.push_back({&target, static_cast<uint32_t>(regions_.size()), 0});
   Run& run = runs_.back();
   if (run.regions > 0) {
     VkBufferCopy& last = regions_.back();
-    if (last.dstOffset + last.size == offset && last.srcOffset + last.size == at) {
-      last.size += bytes;
+    if (last.dstOffset + last.size == offset && last.srcOffset + last.size == used_) {   // right behind it, whatever the size
+      assert(used_ + bytes <= staging_.size());
+      std::memcpy(staging_.mapped() + used_, data, bytes);
+      last.size += bytes, used_ += bytes;
       return;
     }
   }
-  regions_.push_back({at, offset, bytes});
+  std::byte* room = stage(bytes);
+  std::memcpy(room, data, bytes);
+  regions_.push_back({static_cast<VkDeviceSize>(room - staging_.mapped()), offset, bytes});
   ++run.regions;
 }
 
