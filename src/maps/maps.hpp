@@ -37,6 +37,8 @@ class Maps {
   const gpu::Buffer& page_first() const { return page_first_; }
   const gpu::Buffer& projection() const { return projection_; }
   const gpu::Buffer& receiver_depth() const { return receiver_depth_; }
+  /// Bits of the resolution that each cluster/light pair asked for; 0: it faces away.
+  const gpu::Buffer& pair_requests() const { return pair_requests_; }
   const Sizes& sizes() const { return sizes_; }
   /// What a lookup reads.
   std::array<const gpu::Buffer*, 5> published() const { return {&maps_, &light_maps_, &pair_maps_, &page_bits_, &page_first_}; }

@@ -21,6 +21,13 @@ reference::CasterView cube_view(const glm::dvec3& origin, uint32_t face) {
   return {.x = at(0), .y = at(1), .depth = at(2)};
 }
 
+uint32_t tile_of(double s) {
+  return static_cast<uint32_t>(
+      std::clamp(std::floor((s + 1) * 0.5 * shared::ProjectionSide), 0.0, shared::ProjectionSide - 1.0));
+}
+
+}  // namespace
+
 reference::CasterView plain_view(const shared::ShadowView& view, uint32_t kind, uint32_t face) {
   if (kind == shared::ViewsCube) return cube_view(view.origin, face);
   const glm::dvec3 origin(view.origin);
@@ -31,13 +38,6 @@ reference::CasterView plain_view(const shared::ShadowView& view, uint32_t kind, 
           .depth = row(-glm::dvec3(view.z_row), origin, 1 - double(view.z_offset)),
           .perspective = false};
 }
-
-uint32_t tile_of(double s) {
-  return static_cast<uint32_t>(
-      std::clamp(std::floor((s + 1) * 0.5 * shared::ProjectionSide), 0.0, shared::ProjectionSide - 1.0));
-}
-
-}  // namespace
 
 void MapTables::add(const shared::LightRecord& light, uint32_t slot, bool whole, const shared::Box& scene) {
   shared::MapRecord map{.light = slot,

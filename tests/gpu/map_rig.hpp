@@ -9,6 +9,9 @@
 
 namespace umbrage::test {
 
+/// A view in the reference's terms. kind: ViewsCube, … ; face: number of the view among its light's.
+reference::CasterView plain_view(const shared::ShadowView&, uint32_t kind, uint32_t face);
+
 /// The maps of a frame, for the device and for the reference.
 struct MapTables {
   uint32_t grid = 1;

@@ -1,7 +1,8 @@
-// umbrage_visibility at any points, through the include's own way from a position to its cluster's lights.
+// umbrage_visibility at any points, through the include's own way from a position to its cluster's lights. Taps are counted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define UMBRAGE_SET 0
+#define UMBRAGE_COUNT_TAPS
 #include "umbrage/shaders/umbrage.glsl"
 
 layout(local_size_x = 64) in;
