@@ -8,13 +8,14 @@ struct Map {
   uint pages;        // page pool: along a view's side
   uint words;        // page words a view
   uint first_word;
+  uint whole;        // 1: answers for points that nobody marked
 };
 
 /// The map with which a light's visibility is looked up, where there is none: resolution 0.
 UMB_FN Map map_of_record(Frame frame, uint index, float near_m) {
-  if (index == NoIndex) return Map(0u, 0u, near_m, 0u, 0u, 0u);
+  if (index == NoIndex) return Map(0u, 0u, near_m, 0u, 0u, 0u, 0u);
   MapRecord record = UmbrageMapList(UmbrageFrames(frame.address).v[0].maps).v[index];
-  return Map(record.first_view, record.resolution, near_m, record.pages, record.words, record.first_word);
+  return Map(record.first_view, record.resolution, near_m, record.pages, record.words, record.first_word, record.whole);
 }
 
 UMB_FN uint whole_map(Frame frame, uint slot) { return UmbrageLightMapList(UmbrageFrames(frame.address).v[0].light_maps).v[slot].whole; }
@@ -23,7 +24,7 @@ UMB_FN uint whole_map(Frame frame, uint slot) { return UmbrageLightMapList(Umbra
 UMB_FN Map map_of_pair(Frame frame, Cluster cluster, uint i, uint slot) {
   UmbrageFrames f = UmbrageFrames(frame.address);
   LightRecord light = UmbrageLights(f.v[0].lights).v[slot];
-  if (f.v[0].store == StoreAtlas) return Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u);
+  if (f.v[0].store == StoreAtlas) return Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u, 0u);
   uint index = cluster.first == NoIndex ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
   return map_of_record(frame, index == NoIndex ? whole_map(frame, slot) : index, light.near_m);
 }

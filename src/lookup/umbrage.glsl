@@ -79,7 +79,8 @@ Cluster umbrage_cluster(Frame frame, vec2 pixel, float device_depth) {
   return cluster_of_cell(frame, tile, slice_of(camera, view_depth(camera, device_depth)));
 }
 
-/// The cluster of any point. Where the depth buffer showed nothing the list holds all lights: right, and slower.
+/// The cluster of any point. Where the depth buffer showed nothing, and beside what it showed in a cell (the light lists know
+/// of no more than that), the list holds all lights: right, and slower.
 Cluster umbrage_cluster_at(Frame frame, vec3 position_ws) {
   CameraRecord camera = UmbrageFrames(frame.address).v[0].camera;
   vec4 clip = camera.clip_from_world * vec4(position_ws, 1.0f);
@@ -87,7 +88,11 @@ Cluster umbrage_cluster_at(Frame frame, vec3 position_ws) {
   if (!(clip.w > 0.0f) || any(lessThan(pixel, vec2(0.0f))) || any(greaterThanEqual(pixel, vec2(camera.size))))
     return Cluster(NoIndex, NoIndex, UmbrageFrames(frame.address).v[0].light_count);
   float t = dot(camera.t_row.xyz, position_ws) + camera.t_row.w;
-  return cluster_of_cell(frame, uvec2(pixel) / TileSide, slice_of(camera, t));
+  Cluster cluster = cluster_of_cell(frame, uvec2(pixel) / TileSide, slice_of(camera, t));
+  if (cluster.index == NoIndex) return cluster;
+  Box box = UmbrageBoxes(UmbrageFrames(frame.address).v[0].cluster_boxes).v[cluster.index];
+  if (all(lessThanEqual(box.lo, position_ws)) && all(lessThanEqual(position_ws, box.hi))) return cluster;
+  return Cluster(NoIndex, NoIndex, UmbrageFrames(frame.address).v[0].light_count);
 }
 
 UMB_FN uint light_slot(Frame frame, Cluster cluster, uint i) {
@@ -158,7 +163,10 @@ float umbrage_visibility(Frame frame, Cluster cluster, uint i, vec3 position_ws,
   if (map.resolution == 0u) return 0.0f;
   TapPage last = TapPage(NoIndex, NoIndex, 0u);
   float visibility = visibility_in_map(frame, light, map, position_ws, normal_ws, last);
-  if (last.missing == 0u) return visibility;
+  if (last.missing == 0u) {
+    if (map.whole != 0u) count_taps(frame, 0u, 9u);
+    return visibility;
+  }
   // Outside of what the depth buffer showed: all nine taps from the light's whole map, if it has one.
   Map whole = map_of_record(frame, whole_map(frame, slot), light.near_m);
   if (whole.resolution == 0u) {
