@@ -13,10 +13,12 @@ struct TapPage {
 
 UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {
   UmbrageFrames f = UmbrageFrames(frame.address);
+#ifdef UMBRAGE_SET
   if (f.v[0].store == StoreAtlas) {
     uvec2 tile = atlas_tile(map.first_view + view, f.v[0].atlas_columns, f.v[0].atlas_resolution);
     return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
   }
+#endif
   uint page = (texel.y / PageSide) * map.pages + texel.x / PageSide;
   uint key = view << 16u | page;
   if (key != last.key) {

@@ -1,6 +1,7 @@
 // umbrage in a shading shader: clusters, lights and visibility in one file without includes. Callable from vertex, fragment,
-// compute and ray generation shaders: no derivatives, no subgroup operations. Include it first, after defining UMBRAGE_SET
-// as the set number at which ShadowSystem::descriptor_set_layout() is bound.
+// compute and ray generation shaders: no derivatives, no subgroup operations. Include it first. With the page pool
+// it needs one address and no descriptor; for fixed cubes define UMBRAGE_SET as the set number at which
+// ShadowSystem::descriptor_set_layout() is bound.
 //
 //   Frame frame = umbrage_frame(address);                     // ShaderInterface::frame
 //   Cluster cluster = umbrage_cluster(frame, pixel, depth);   // or umbrage_cluster_at(frame, position_ws)
@@ -33,7 +34,9 @@ UMBRAGE_REFERENCE(UmbrageLightMapList, LightMaps, 4);
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer UmbrageTapCounter { TapCounts taps; };
 #endif
 
+#ifdef UMBRAGE_SET
 layout(set = UMBRAGE_SET, binding = 0) uniform texture2D umbrage_atlas;
+#endif
 
 // --- What a host sees -----------------------------------------------------------------------------------------------
 
