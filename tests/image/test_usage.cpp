@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -56,7 +55,7 @@ TEST(Usage, ShowListNamesTheDebugPicturesWithoutAScene) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* name : {"image", "clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth", "resolution",
                            "texels-per-pixel", "pages", "projection-maps", "cube-projection"})
-    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("(^|\n)" + std::string(name) + " "))) << outcome.out;
+    EXPECT_NE(("\n" + outcome.out).find("\n" + std::string(name) + " "), std::string::npos) << outcome.out;
 }
 
 TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
