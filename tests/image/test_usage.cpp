@@ -55,7 +55,7 @@ TEST(Usage, ShowListNamesTheDebugPicturesWithoutAScene) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* name : {"image", "clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth", "resolution",
                            "texels-per-pixel", "pages", "projection-maps", "cube-projection"})
-    EXPECT_NE(("\n" + outcome.out).find("\n" + std::string(name) + " "), std::string::npos) << outcome.out;
+    EXPECT_NE(std::string("\n").append(outcome.out).find(std::string("\n").append(name).append(" ")), std::string::npos) << outcome.out;
 }
 
 TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
