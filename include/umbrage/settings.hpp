@@ -27,7 +27,7 @@ enum class MapLayout : uint8_t {
 };
 enum class ResolutionForm : uint8_t {
   paper,        ///< O2 as printed.
-  corrected,    ///< E2, E3: no texel wider than a pixel.
+  corrected,    ///< E2, E3: texels match pixels (levels: at most 1.42 pixels wide).
 };
 enum class HistogramBuckets : uint8_t {
   logarithmic,  ///< E8: each bucket half as fine as the one before.

@@ -50,7 +50,7 @@ const std::array<Field, 20> kFields{{
      UMB_FIELD(frame.writer), kWriter},
     {{"store", "fixed_cubes|page_pool", "one map per light in an atlas, or virtual maps in a pool of pages"}, UMB_FIELD(fixed.store), kStore},
     {{"layout", "exact|levels", "maps as fine as asked and rounded up to pages (O8), or powers of two"}, UMB_FIELD(frame.layout), kLayout},
-    {{"resolution", "paper|corrected", "texels a cluster asks for: O2 as printed, or at least one per pixel (E2, E3)"},
+    {{"resolution", "paper|corrected", "texels a cluster asks for: O2 as printed, or texels that match pixels (E2, E3)"},
      UMB_FIELD(frame.resolution), kResolution},
     {{"buckets", "logarithmic|linear", "steps of the histogram behind a light's maps (O8, E8); exact layout"}, UMB_FIELD(frame.buckets), kBuckets},
     {{"facing_away", "kept|dropped", "cluster/light pairs whose normals all face away from the light"}, UMB_FIELD(frame.facing_away), kFacingAway},

@@ -1,4 +1,4 @@
-// The default store: one pool of a fixed budget, a software page table, everything decided on the device. A page is 128×128
+// The default store: one pool of a fixed budget, a software page table, everything decided on the device. A page is 64×64
 // texels of 32 bits, or less for coarse maps. Pages lie in the pool in the order of their words: by light, map, view and row.
 #pragma once
 #include "gpu/prefix_sum.hpp"
