@@ -3,6 +3,7 @@
 // the tree's order. A thread a cluster: neighbours walk alike, and no barrier is needed at any subgroup size.
 #extension GL_GOOGLE_include_directive : require
 #include "clusters/cluster_buffers.glsl"
+#include "gpu/groups.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform PushBlock { LightListPush push; };
 layout(constant_id = 0) const bool writes = false;
@@ -60,11 +61,8 @@ void main() {
     return;
   }
   if (writes && cluster == 0u) {
-    uint groups = (min(Counters(push.counters).counters.pairs_found, frame.pair_capacity) + 63u) / 64u;
-    uint rows = max((groups + 65534u) / 65535u, 1u);
-    Counters(push.counters).counters.pair_groups[0] = (groups + rows - 1u) / rows;
-    Counters(push.counters).counters.pair_groups[1] = rows;
-    Counters(push.counters).counters.pair_groups[2] = 1u;
+    uvec3 groups = groups_for((min(Counters(push.counters).counters.pairs_found, frame.pair_capacity) + 63u) / 64u);
+    for (int i = 0; i < 3; ++i) Counters(push.counters).counters.pair_groups[i] = groups[i];
   }
   Box box = Boxes(push.boxes).v[cluster];
   uint first = 0u;

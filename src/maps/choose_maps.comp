@@ -3,7 +3,7 @@
 // words and receiver masks. One workgroup: lights are few. Runs again in each round in which the budget is fitted.
 #extension GL_GOOGLE_include_directive : require
 #include "maps/map_buffers.glsl"
-#include "maps/groups.glsl"
+#include "gpu/groups.glsl"
 layout(local_size_x = 256) in;
 
 shared uint maps_before[256];

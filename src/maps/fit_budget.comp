@@ -3,7 +3,7 @@
 // all fit, and the most important ones once less while there is room. The rounds that follow count what that really needs.
 #extension GL_GOOGLE_include_directive : require
 #include "maps/map_buffers.glsl"
-#include "maps/groups.glsl"
+#include "gpu/groups.glsl"
 layout(local_size_x = 256) in;
 
 shared float sums[256];
