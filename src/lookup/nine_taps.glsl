@@ -11,29 +11,54 @@ struct TapPage {
   uint missing;      // taps without a page
 };
 
-UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {
+/// First texel in the pool of a view's page; NoIndex for one that nobody marked.
+UMB_FN uint find_page(Frame frame, Map map, uint view, uint page) {
   UmbrageFrames f = UmbrageFrames(frame.address);
+  uint word = map.first_word + view * map.words + page / 32u;
+  uint bits = UmbrageUints(f.v[0].page_bits).v[word];
+  uint bit = page % 32u;
+  return (bits & (1u << bit)) != 0u ? page_texel(bits, UmbrageUints(f.v[0].page_first).v[word], bit, map.resolution) : NoIndex;
+}
+
+UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {
 #ifdef UMBRAGE_SET
-  if (f.v[0].store == StoreAtlas) {
-    uvec2 tile = atlas_tile(map.first_view + view, f.v[0].atlas_columns, f.v[0].atlas_resolution);
+  if (UmbrageFrames(frame.address).v[0].store == StoreAtlas) {
+    uvec2 tile = atlas_tile(map.first_view + view, UmbrageFrames(frame.address).v[0].atlas_columns, UmbrageFrames(frame.address).v[0].atlas_resolution);
     return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
   }
 #endif
   uint page = (texel.y / PageSide) * map.pages + texel.x / PageSide;
   uint key = view << 16u | page;
   if (key != last.key) {
-    uint word = map.first_word + view * map.words + page / 32u;
-    uint bits = UmbrageUints(f.v[0].page_bits).v[word];
-    uint bit = page % 32u;
     last.key = key;
-    last.first = NoIndex;
-    if ((bits & (1u << bit)) != 0u) last.first = page_texel(bits, UmbrageUints(f.v[0].page_first).v[word], bit, map.resolution);
+    last.first = find_page(frame, map, view, page);
   }
   if (last.first == NoIndex) {
     ++last.missing;
     return 0.0f;
   }
-  return uintBitsToFloat(UmbrageUints(f.v[0].pool).v[last.first + texel_in_page(texel, map.resolution)]);
+  return uintBitsToFloat(UmbrageUints(UmbrageFrames(frame.address).v[0].pool).v[last.first + texel_in_page(texel, map.resolution)]);
+}
+
+/// The pages of 3×3 texels: one, or two side by side, or four.
+struct TapPages {
+  uvec4 first;       // in the pool; left and right above, then below; NoIndex: not there
+  uvec2 split;       // texels from here on lie in the right or the lower pages
+};
+
+UMB_FN TapPages pages_around(Frame frame, Map map, uint view, uvec2 middle) {
+  uvec2 begin = (middle - 1u) / PageSide;
+  uvec2 end = (middle + 1u) / PageSide;
+  uint page = begin.y * map.pages + begin.x;
+  TapPages around;
+  around.first = uvec4(find_page(frame, map, view, page));
+  around.split = end * PageSide;
+  if (begin.x != end.x) around.first.yw = uvec2(find_page(frame, map, view, page + 1u));
+  if (begin.y != end.y) {
+    around.first.zw = uvec2(find_page(frame, map, view, page + map.pages));
+    if (begin.x != end.x) around.first.w = find_page(frame, map, view, page + map.pages + 1u);
+  }
+  return around;
 }
 
 /// How far the receiver's plane is moved: at most a tenth of the way to the light, or grazing planes would lose what stands on
@@ -57,13 +82,49 @@ UMB_FN float tap_weight(vec2 fraction, int x, int y) {
   return (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
 }
 
+/// From the page pool when all nine taps lie on the receiver's own face: everything in the face's frame, where a direction is
+/// (s, t, 1). The same comparison as add_tap's with its divisions multiplied out.
+UMB_FN float visibility_face(Frame frame, Map map, uint face, vec3 relative, vec3 normal, vec2 base, vec2 fraction, inout TapPage last) {
+  uvec2 middle = uvec2(round_to_int(base.x), round_to_int(base.y));
+  TapPages pages = pages_around(frame, map, face, middle);
+  UmbrageUints pool = UmbrageUints(UmbrageFrames(frame.address).v[0].pool);
+  uint page_side = page_side_of(map.resolution);
+  float side = 2.0f / float(map.resolution);
+  float plane_distance = dot(normal, relative);
+  float deepest = relative.z * (1.0f + TapDepthTexels * side);
+  vec2 sum = vec2(0.0f);
+  for (int y = -1; y <= 1; ++y) {
+    uint row = middle.y + uint(y);
+    uvec2 first = row >= pages.split.y ? pages.first.zw : pages.first.xy;
+    for (int x = -1; x <= 1; ++x) {
+      uint column = middle.x + uint(x);
+      uint page = column >= pages.split.x ? first.y : first.x;
+      float stored = 0.0f;
+      if (page != NoIndex) stored = uintBitsToFloat(pool.v[page + (row % PageSide) * page_side + column % PageSide]);
+      else ++last.missing;
+      vec3 direction = vec3((base + vec2(x, y) + 0.5f) * side - 1.0f, 1.0f);
+      float square = dot(direction, direction);
+      float along = dot(relative, direction);
+      // The plane's depth over the receiver's own along this direction: receiver_plane_depth.
+      float ratio = plane_distance * square / (dot(normal, direction) * along);
+      if (!(ratio > 0.0f && ratio <= 4.0f)) ratio = 1.0f;
+      float weight = tap_weight(fraction, x, y) * min(2.0f * ratio, 1.0f);
+      bool lit = stored * min(ratio * along, deepest * square) * (1.0f - 4e-6f) <= map.near_m * square;
+      sum += weight * vec2(lit ? 1.0f : 0.0f, 1.0f);
+    }
+  }
+  return sum.x / sum.y;
+}
+
 UMB_FN float visibility_cube(Frame frame, Map map, vec3 relative, vec3 normal, inout TapPage last) {
   uint face = face_of_direction(relative);
   vec3 place = face_coordinates(face, relative);
-  relative += normal * normal_offset(texel_size_m(place.z, 1.0f, map.resolution), relative, normal);
   vec2 texels = (place.xy / place.z * 0.5f + 0.5f) * float(map.resolution);
   vec2 base = floor(texels);
   vec2 fraction = texels - base;
+  relative += normal * normal_offset(texel_size_m(place.z, 1.0f, map.resolution), relative, normal);
+  if (map.pages != 0u && all(greaterThanEqual(base, vec2(1.0f))) && all(lessThan(base, vec2(float(map.resolution) - 1.0f))))
+    return visibility_face(frame, map, face, face_coordinates(face, relative), face_coordinates(face, normal), base, fraction, last);
   float reach = 1.0f + TapDepthTexels * 2.0f / float(map.resolution);
   vec2 sum = vec2(0.0f);
   for (int y = -1; y <= 1; ++y) {
@@ -97,7 +158,7 @@ UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal, i
       vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
       vec2 st = ((texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f) * (view.tangent * view.tangent);
       vec3 direction = view.w_row + view.x_row * st.x + view.y_row * st.y;
-      add_tap(frame, map, 0u, uvec2(texel), normal, relative, direction, deepest, tap_weight(fraction, x, y), last, sum);
+      add_tap(frame, map, 0u, uvec2(round_to_int(texel.x), round_to_int(texel.y)), normal, relative, direction, deepest, tap_weight(fraction, x, y), last, sum);
     }
   }
   return sum.x / sum.y;
@@ -123,7 +184,7 @@ UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 norma
       vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
       vec2 st = (texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
       float depth = max(clip.z + max(dot(gain, st - clip.xy), -deepest) + 1e-6f, 0.0f);   // 0: behind every caster
-      sum += stored_depth(frame, map, 0u, uvec2(texel), last) <= depth ? tap_weight(fraction, x, y) : 0.0f;
+      sum += stored_depth(frame, map, 0u, uvec2(round_to_int(texel.x), round_to_int(texel.y)), last) <= depth ? tap_weight(fraction, x, y) : 0.0f;
     }
   }
   return sum * 0.25f;
