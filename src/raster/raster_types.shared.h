@@ -14,10 +14,12 @@ UMB_ASSERT_SIZE(CastPush, 16);
 
 /// Threads that share an item of the page rasteriser, or a queued triangle.
 UMB_CONST uint RasterThreads = 64u;
-/// Texels along the side of a tile, which a workgroup of TileThreads draws: a column of TileRows texels a thread.
+/// Texels along the side of a tile, which a workgroup of TileThreads draws: a column of TileRows texels a thread, of which
+/// TileStep at once are skipped or drawn. In long columns few threads fetch each triangle.
 UMB_CONST uint TileTexels = 32u;
-UMB_CONST uint TileThreads = 128u;
-UMB_CONST uint TileRows = 8u;
+UMB_CONST uint TileRows = 32u;
+UMB_CONST uint TileThreads = TileTexels * TileTexels / TileRows;
+UMB_CONST uint TileStep = 8u;
 /// A triangle whose box holds more texels is queued for the tiles.
 UMB_CONST uint QueuedTexels = 512u;
 /// Workgroups along x of an indirect dispatch; the rest go to y.
