@@ -2,6 +2,7 @@
 #include "host/draw_list.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace app {
 
@@ -10,6 +11,28 @@ using umbrage::Result;
 namespace {
 
 bool is_mirrored(const glm::mat4& m) { return glm::determinant(glm::mat3(m)) < 0.0f; }
+
+/// What a camera sees, relative to its eye.
+class Frustum {
+ public:
+  explicit Frustum(const glm::mat4& clip_from_offset) {
+    const glm::mat4 rows = glm::transpose(clip_from_offset);
+    // Reversed depth: near is w - z, far is z.
+    planes_ = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2], rows[2]};
+  }
+  /// False only for boxes that lie beyond one of the planes, by more than rounding.
+  bool meets(const glm::vec3& center, const glm::vec3& half_size) const {
+    for (const glm::vec4& plane : planes_) {
+      const glm::vec3 normal(plane);
+      const float reach = glm::dot(glm::abs(normal), half_size) + 1e-5f * glm::dot(glm::abs(normal), glm::abs(center));
+      if (glm::dot(normal, center) + plane.w + reach < 0.0f) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::array<glm::vec4, 6> planes_;
+};
 
 }  // namespace
 
@@ -28,7 +51,9 @@ Result<DrawList> DrawList::create(const GpuContext& context, const Scene& scene,
     entry.double_sided = material.double_sided;
     entry.mirrored = is_mirrored(pose.instances[items[i].instance].world_from_mesh);
     entry.moving = items[i].moving;
-    entry.center = 0.5f * (primitive.lowest + primitive.highest);
+    entry.unbounded = items[i].deformed;
+    entry.mesh_center = 0.5f * (primitive.lowest + primitive.highest);
+    entry.mesh_half_size = 0.5f * (primitive.highest - primitive.lowest);
     list.entries_.push_back(entry);
   }
   const size_t count = std::max<size_t>(items.size(), 1);
@@ -60,44 +85,55 @@ void DrawList::build(const Pose& pose, std::span<const SceneItem> items) {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.order() < b.order(); });
   ranges_.clear();
   blended_.clear();
-  draws_.clear();
-  for (uint32_t place = 0; place < entries_.size(); ++place) append_draw(place);
+  for (uint32_t place = 0; place < entries_.size(); ++place) append(place);
   for (uint32_t place = 0; place < entries_.size(); ++place) write_instance(place, pose, items);
-  commands_.write(std::span<const VkDrawIndexedIndirectCommand>(draws_));
 }
 
-void DrawList::append_draw(uint32_t place) {
+void DrawList::append(uint32_t place) {
   const Entry& entry = entries_[place];
   if (entry.alpha == AlphaMode::blend) {
     blended_.push_back({place, entry.index_count, entry.first_index, entry.double_sided, entry.mirrored, {}});
     return;
   }
   const bool masked = entry.alpha == AlphaMode::mask;
-  const bool same_range = !ranges_.empty() && ranges_.back().masked == masked &&
-                          ranges_.back().double_sided == entry.double_sided &&
-                          ranges_.back().mirrored == entry.mirrored;
-  if (!same_range)
-    ranges_.push_back({masked, entry.double_sided, entry.mirrored, static_cast<uint32_t>(draws_.size()), 0});
-  if (same_range && entries_[place - 1].primitive == entry.primitive) {
-    ++draws_.back().instanceCount;
-    return;
+  if (ranges_.empty() || ranges_.back().masked != masked || ranges_.back().double_sided != entry.double_sided ||
+      ranges_.back().mirrored != entry.mirrored)
+    ranges_.push_back({masked, entry.double_sided, entry.mirrored, place, 0, 0, 0});
+  ++ranges_.back().instance_count;
+}
+
+void DrawList::select(const CameraMatrices& camera) {
+  const Frustum frustum(camera.clip_from_offset);
+  draws_.clear();
+  for (DrawRange& range : ranges_) {
+    nearest_.clear();
+    for (uint32_t place = range.first_instance; place < range.first_instance + range.instance_count; ++place) {
+      const Entry& entry = entries_[place];
+      const glm::vec3 offset = entry.center - camera.eye;
+      if (!entry.unbounded && !frustum.meets(offset, entry.half_size)) continue;
+      nearest_.emplace_back(-glm::dot(offset, camera.back) - glm::dot(glm::abs(camera.back), entry.half_size), place);
+    }
+    std::sort(nearest_.begin(), nearest_.end());
+    range.first_command = static_cast<uint32_t>(draws_.size());
+    range.command_count = static_cast<uint32_t>(nearest_.size());
+    for (const auto& [depth, place] : nearest_)
+      draws_.push_back({entries_[place].index_count, 1, entries_[place].first_index, 0, place});
   }
-  draws_.push_back({entry.index_count, 1, entry.first_index, 0, place});
-  ++ranges_.back().command_count;
+  commands_.write(std::span<const VkDrawIndexedIndirectCommand>(draws_));
 }
 
 void DrawList::write_instance(uint32_t place, const Pose& pose, std::span<const SceneItem> items) {
-  const Entry& entry = entries_[place];
+  Entry& entry = entries_[place];
   const SceneItem& item = items[entry.item];
   const glm::mat4& matrix = pose.instances[item.instance].world_from_mesh;
   const glm::mat4 rows = glm::transpose(matrix);
   const gpu::GpuInstance instance{
       {rows[0], rows[1], rows[2]}, item.positions, item.normals, item.primitive, item.deformed ? 1u : 0u};
   instances_.write(std::span(&instance, 1), place * sizeof(instance));
-  if (entry.alpha == AlphaMode::blend) {
-    const size_t first_blended = entries_.size() - blended_.size();
-    blended_[place - first_blended].center = glm::vec3(matrix * glm::vec4(entry.center, 1.0f));
-  }
+  entry.center = glm::vec3(matrix * glm::vec4(entry.mesh_center, 1.0f));
+  for (int axis = 0; axis < 3; ++axis)
+    entry.half_size[axis] = glm::dot(glm::abs(glm::vec3(rows[axis])), entry.mesh_half_size);
+  if (entry.alpha == AlphaMode::blend) blended_[place - (entries_.size() - blended_.size())].center = entry.center;
 }
 
 }  // namespace app

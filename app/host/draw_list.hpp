@@ -1,8 +1,8 @@
-// Instances as the vertex shader reads them and the indirect draws over them: one per primitive and state, instanced.
+// Instances as the vertex shader reads them and the indirect draws of those that the camera can see, nearest first.
 #pragma once
 #include <tuple>
 
-#include "host/scene_buffers.hpp"
+#include "host/frame_data.hpp"
 #include "host/shaders/host.shared.h"
 
 namespace app {
@@ -10,7 +10,8 @@ namespace app {
 /// Draws that share pipeline and fixed state.
 struct DrawRange {
   bool masked = false, double_sided = false, mirrored = false;
-  uint32_t first_command = 0, command_count = 0;
+  uint32_t first_instance = 0, instance_count = 0;
+  uint32_t first_command = 0, command_count = 0;  ///< Of those in view.
 };
 
 /// One blended item.
@@ -27,6 +28,8 @@ class DrawList {
                                           std::span<const SceneItem>);
   /// Takes over the transforms of what moves. No submission that reads the list is under way.
   void update(const Pose&, std::span<const SceneItem>);
+  /// Lists the opaque and masked draws whose boxes a camera's frustum meets, those of a range from near to far.
+  void select(const CameraMatrices&);
   /// Opaque and masked items, a multi-draw for each range.
   std::span<const DrawRange> ranges() const { return ranges_; }
   VkBuffer commands() const { return commands_.get(); }
@@ -39,16 +42,19 @@ class DrawList {
     uint32_t item = 0, primitive = 0, index_count = 0, first_index = 0;
     AlphaMode alpha = AlphaMode::opaque;
     bool double_sided = false, mirrored = false, moving = false;
-    glm::vec3 center{0};  ///< Mesh space.
+    bool unbounded = false;  ///< Deformed: its box is not known.
+    glm::vec3 mesh_center{0}, mesh_half_size{0};
+    glm::vec3 center{0}, half_size{0};  ///< World.
     auto order() const { return std::tuple(alpha == AlphaMode::blend, alpha, double_sided, mirrored, primitive, item); }
   };
   void build(const Pose&, std::span<const SceneItem>);
-  void append_draw(uint32_t place);
+  void append(uint32_t place);
   void write_instance(uint32_t place, const Pose&, std::span<const SceneItem>);
 
   std::vector<Entry> entries_;  ///< In the order of the instance table.
   DeviceBuffer instances_, commands_;
   std::vector<VkDrawIndexedIndirectCommand> draws_;
+  std::vector<std::pair<float, uint32_t>> nearest_;  ///< Depth and place, of a range.
   std::vector<DrawRange> ranges_;
   std::vector<BlendedDraw> blended_;
 };

@@ -127,6 +127,7 @@ Result<void> Renderer::State::create_passes(uint32_t max_lights) {
 Result<void> Renderer::State::begin_frame(const FrameInput& input, const CameraMatrices& camera) {
   if (auto set = data.set_lights(input.lights); !set) return set;
   draws.update(*input.pose, items);
+  draws.select(camera);
   const std::span<const uint32_t> deformed = deformer.update(*input.pose, items);
   if (auto updated = shadows->update(*input.pose, items, deformed); !updated) return updated;
   if (auto set = shadows->set_lights(input.lights); !set) return set;
