@@ -33,7 +33,9 @@ Vertex place(const glm::vec4& position, uint32_t resolution) {
   return {std::llrint(x * 256), std::llrint(y * 256), std::clamp(position.z * reciprocal, 0.0f, 1.0f)};
 }
 
-int64_t edge(const Vertex& a, const Vertex& b, int64_t x, int64_t y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
+int64_t edge(const Vertex& a, const Vertex& b, int64_t x, int64_t y) {
+  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
 
 /// Inside, or on a top or a left side of a triangle that turns clockwise with y down.
 bool is_inside(const Vertex& a, const Vertex& b, int64_t x, int64_t y) {
@@ -55,9 +57,9 @@ void fill(DepthWindow& window, std::array<Vertex, 3> v) {
     for (int64_t column = begin(left, window.first.x); column < end(right, window.first.x); ++column) {
       const int64_t x = 256 * column + 128, y = 256 * row + 128;
       if (!is_inside(v[0], v[1], x, y) || !is_inside(v[1], v[2], x, y) || !is_inside(v[2], v[0], x, y)) continue;
-      const double z =
-          (double(edge(v[1], v[2], x, y)) * v[0].z + double(edge(v[2], v[0], x, y)) * v[1].z + double(edge(v[0], v[1], x, y)) * v[2].z) /
-          double(area);
+      const double z = (double(edge(v[1], v[2], x, y)) * v[0].z + double(edge(v[2], v[0], x, y)) * v[1].z +
+                        double(edge(v[0], v[1], x, y)) * v[2].z) /
+                       double(area);
       const size_t at = size_t(row - window.first.y) * window.side + size_t(column - window.first.x);
       window.covered[at] = true;
       window.depth[at] = std::max(window.depth[at], std::clamp(z, z_min, z_max));
@@ -70,8 +72,8 @@ void fill(DepthWindow& window, std::array<Vertex, 3> v) {
 void draw_triangle(DepthWindow& window, const std::array<glm::vec4, 3>& clip_positions) {
   for (const glm::vec4& p : clip_positions)
     if (!std::isfinite(p.x + p.y + p.z + p.w)) return;
-  // Beyond 16384 texels from the middle nothing is drawn: it is the fixed-point numbers' range.
-  const float guard = 32768.0f / float(window.resolution) - 1;
+  // Beyond 16000 texels from the middle nothing is drawn: it is the fixed-point numbers' range.
+  const float guard = 32000.0f / float(window.resolution) - 1;
   Polygon polygon(clip_positions.begin(), clip_positions.end());
   polygon = cut(polygon, [](const glm::vec4& p) { return p.w - p.z; });
   polygon = cut(polygon, [](const glm::vec4& p) { return p.z; });
@@ -80,7 +82,8 @@ void draw_triangle(DepthWindow& window, const std::array<glm::vec4, 3>& clip_pos
   polygon = cut(polygon, [&](const glm::vec4& p) { return guard * p.w - p.y; });
   polygon = cut(polygon, [&](const glm::vec4& p) { return guard * p.w + p.y; });
   for (size_t i = 2; i < polygon.size(); ++i)
-    fill(window, {place(polygon[0], window.resolution), place(polygon[i - 1], window.resolution), place(polygon[i], window.resolution)});
+    fill(window, {place(polygon[0], window.resolution), place(polygon[i - 1], window.resolution),
+                  place(polygon[i], window.resolution)});
 }
 
 }  // namespace reference

@@ -103,7 +103,7 @@ UMB_FN uint slice_of(CameraRecord camera, float t) {
   } else {
     steps = (t - camera.slice_origin) * camera.slice_scale;
   }
-  return uint(clamp(steps, 0.0f, float(camera.slice_count - 1u)));
+  return floor_to_uint(steps, camera.slice_count - 1u);
 }
 
 /// View depth where a slice begins; slice_count: where the last one ends.
@@ -138,7 +138,7 @@ UMB_FN Box cell_box(CameraRecord camera, uvec2 tile, uint slice) {
 
 UMB_FN uint line_bit(float value, float lo, float hi) {
   float t = hi > lo ? (value - lo) / (hi - lo) : 0.0f;
-  return uint(clamp(floor(10.0f * t), 0.0f, 9.0f));
+  return floor_to_uint(10.0f * t, 9u);
 }
 
 /// The word that a sample ors into its cluster's; never 0, so that it marks the cluster as occupied too.

@@ -1,7 +1,7 @@
 // Normal cones of clusters: samples mark cells of an octahedral map of 8×8, one bit each; the cone holds the marked cells.
 #ifndef UMBRAGE_CLUSTERS_NORMAL_CONE_SHARED_H
 #define UMBRAGE_CLUSTERS_NORMAL_CONE_SHARED_H
-#include "core/shared_math.h"
+#include "core/rounding.shared.h"
 
 UMB_NAMESPACE_BEGIN
 
@@ -24,7 +24,7 @@ UMB_FN vec3 from_octahedral(vec2 p) {
 
 UMB_FN uint normal_cell(vec3 normal) {
   vec2 p = octahedral(normal) * 4.0f + vec2(4.0f);
-  return uint(clamp(p.y, 0.0f, 7.0f)) * NormalCellsSide + uint(clamp(p.x, 0.0f, 7.0f));
+  return floor_to_uint(p.y, 7u) * NormalCellsSide + floor_to_uint(p.x, 7u);
 }
 
 UMB_FN vec3 normal_cell_corner(uint cell, uint corner) {

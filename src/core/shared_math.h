@@ -14,6 +14,7 @@
 #define UMB_NAMESPACE_END }
 #define UMB_FN inline
 #define UMB_CONST inline constexpr
+#define UMB_PRECISE
 #define UMB_OUT(T) T&
 #define UMB_INOUT(T) T&
 #define UMB_ASSERT_SIZE(T, n) static_assert(sizeof(T) == (n), #T " must have the size it has in GLSL's scalar layout")
@@ -31,6 +32,7 @@ using glm::log2, glm::max, glm::min, glm::mix, glm::mod, glm::normalize, glm::po
 using glm::smoothstep, glm::sqrt, glm::step, glm::tan, glm::transpose, glm::trunc;
 
 inline uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
+inline int floatBitsToInt(float value) { return std::bit_cast<int>(value); }
 inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 inline int bitCount(uint value) { return std::popcount(value); }
 /// As in GLSL: -1 for 0.
@@ -48,6 +50,7 @@ inline int findMSB(uint value) { return 31 - std::countl_zero(value); }
 #define UMB_NAMESPACE_END
 #define UMB_FN
 #define UMB_CONST const
+#define UMB_PRECISE precise
 #define UMB_OUT(T) out T
 #define UMB_INOUT(T) inout T
 #define UMB_ASSERT_SIZE(T, n)

@@ -78,7 +78,7 @@ UMB_FN Cluster cluster_of_cell(Frame frame, uvec2 tile, uint slice) {
 Cluster umbrage_cluster(Frame frame, vec2 pixel, float device_depth) {
   CameraRecord camera = UmbrageFrames(frame.address).v[0].camera;
   if (is_background(device_depth)) return Cluster(NoIndex, NoIndex, 0u);
-  uvec2 tile = min(uvec2(max(pixel, vec2(0.0f))) / TileSide, camera.tiles - 1u);
+  uvec2 tile = uvec2(floor_to_uint(pixel.x / float(TileSide), camera.tiles.x - 1u), floor_to_uint(pixel.y / float(TileSide), camera.tiles.y - 1u));
   return cluster_of_cell(frame, tile, slice_of(camera, view_depth(camera, device_depth)));
 }
 

@@ -23,12 +23,12 @@ UMB_FN float matching_resolution(float depth_m, float tangent, float pixel_m) { 
 /// The level nearest to a resolution: its texels are at most 1.42 times as wide as those asked for.
 UMB_FN uint level_of_resolution(float resolution) {
   float level = ceil(log2(max(resolution, 1.0f)) - 0.5f);
-  return uint(clamp(level, float(MinLevel), float(MaxLevel)));
+  return max(floor_to_uint(level, MaxLevel), MinLevel);
 }
 
 /// The paper's R as the exact layout allocates it: whole pages, or below one page a power of two.
 UMB_FN uint exact_resolution(float resolution) {
-  uint texels = uint(clamp(ceil(resolution), 1.0f, float(1u << MaxLevel)));
+  uint texels = max(floor_to_uint(ceil(resolution), 1u << MaxLevel), 1u);
   if (texels >= PageSide) return pages_of(texels) * PageSide;
   uint side = 1u << MinLevel;
   while (side < texels) side *= 2u;
@@ -45,7 +45,7 @@ UMB_FN uint level_of_place(uint place) { return MaxLevel - place; }
 UMB_FN uint bucket_of_request(float resolution, float finest, uint buckets, bool logarithmic) {
   float ratio = max(finest / max(resolution, 1e-6f), 1.0f);
   float at = logarithmic ? log2(ratio) : (1.0f - 1.0f / ratio) * float(buckets);
-  return uint(clamp(floor(at), 0.0f, float(buckets - 1u)));
+  return floor_to_uint(at, buckets - 1u);
 }
 
 /// Twice the area of a quad's picture.

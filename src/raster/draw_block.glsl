@@ -30,18 +30,17 @@ void draw_block(Uints pool, RasterTriangle t, uint page_side, uint origin, ivec2
   ivec3 step_y = steps_y(t);
   vec3 texels_per_unit = 1.0 / vec3(max(abs(step_x), ivec3(1)));
   float level = masked && t.batch != NoIndex ? mask_level(t) : 0.0;
-  int width = last.x - first.x + 1;
+  bvec3 rises = greaterThan(step_x, ivec3(0));
+  bvec3 falls = lessThan(step_x, ivec3(0));
+  float width = float(last.x - first.x + 1);
   uint row = origin + uint(first.y) % PageSide * page_side + uint(first.x) % PageSide;
   for (int y = first.y; y <= last.y; ++y) {
     // An edge that rises is passed at -edge / step, one that falls is left there.
-    vec3 crossing = clamp(vec3(edges) * texels_per_unit, vec3(-4096.0), vec3(4096.0));
-    int begin = 0;
-    int end = width;
-    for (int i = 0; i < 3; ++i) {
-      if (step_x[i] > 0) begin = max(begin, int(-crossing[i]));
-      else if (edges[i] < 0) end = 0;
-      else if (step_x[i] < 0) end = min(end, int(crossing[i]) + 2);
-    }
+    vec3 crossing = vec3(edges) * texels_per_unit;
+    vec3 enters = mix(vec3(0.0), -crossing, rises);
+    vec3 leaves = mix(vec3(width), crossing, falls);
+    int begin = round_to_int(clamp(max(enters.x, max(enters.y, enters.z)) - 0.5, 0.0, width));
+    int end = round_to_int(clamp(min(leaves.x, min(leaves.y, leaves.z)) + 1.5, 0.0, width));
     ivec3 at = edges + step_x * begin;
     for (int x = begin; x < end; ++x) {
       if ((at.x | at.y | at.z) >= 0) {

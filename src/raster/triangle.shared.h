@@ -2,20 +2,16 @@
 // here depends on what else is drawn, nor on how a triangle is cut into blocks.
 #ifndef UMBRAGE_RASTER_TRIANGLE_SHARED_H
 #define UMBRAGE_RASTER_TRIANGLE_SHARED_H
+#include "core/rounding.shared.h"
 #include "maps/map_types.shared.h"
-
-#ifdef __cplusplus
-#define UMB_PRECISE
-#else
-#define UMB_PRECISE precise
-#endif
 
 UMB_NAMESPACE_BEGIN
 
 /// Sub-pixel steps of a texel. Texel centres lie on odd multiples of half of it.
 UMB_CONST int SubTexels = 256;
-/// Vertices lie within so many texels of the map's middle, so that edge functions of a block of 32 texels fit 32 bits.
-UMB_CONST float GuardTexels = 16384.0f;
+/// Vertices lie within so many texels of the map's middle: edge functions of a block of 32 texels fit 32 bits, and sub-texels
+/// round_to_int.
+UMB_CONST float GuardTexels = 16000.0f;
 /// Triangles up to so many texels wide and high have edge functions of 32 bits everywhere.
 UMB_CONST int NarrowTexels = 64;
 
@@ -93,8 +89,8 @@ UMB_FN bool place_vertex(vec4 position, uint resolution, UMB_OUT(PlacedVertex) p
   UMB_PRECISE float y = position.y * reciprocal * half_side + half_side;
   UMB_PRECISE float z = position.z * reciprocal;
   bool valid = abs(x) <= 2.0f * GuardTexels && abs(y) <= 2.0f * GuardTexels && abs(z) <= 2.0f;
-  placed.x = valid ? int(roundEven(x * float(SubTexels))) : 0;
-  placed.y = valid ? int(roundEven(y * float(SubTexels))) : 0;
+  placed.x = valid ? round_to_int(x * float(SubTexels)) : 0;
+  placed.y = valid ? round_to_int(y * float(SubTexels)) : 0;
   placed.z = clamp(z, 0.0f, 1.0f);
   placed.reciprocal_w = reciprocal;
   return valid;

@@ -4,7 +4,7 @@
 #ifndef UMBRAGE_VIEWS_CUBE_FACE_SHARED_H
 #define UMBRAGE_VIEWS_CUBE_FACE_SHARED_H
 
-#include "core/shared_math.h"
+#include "core/rounding.shared.h"
 
 UMB_NAMESPACE_BEGIN
 
@@ -74,7 +74,7 @@ UMB_FN CubeTap cube_tap(uint face, float s, float t) {
 /// The texel that holds s (or t), clamped to the view; a NaN gives texel 0.
 UMB_FN uint texel_of(float s, uint resolution) {
   float position = (s * 0.5f + 0.5f) * float(resolution);
-  return position > 0.0f ? min(uint(min(position, 16777216.0f)), resolution - 1u) : 0u;
+  return position > 0.0f ? floor_to_uint(position, resolution - 1u) : 0u;
 }
 
 /// s (or t) of a texel's centre.
