@@ -16,9 +16,18 @@ bool misses(ivec3 edges, ivec3 step_x, ivec3 step_y) {
   return any(lessThan(most, ivec3(0)));
 }
 
-void link(uint triangle, uint tile, uint first_texel, ivec3 edges, vec3 fractions, uint node) {
+/// No texel of first … last has a larger depth key; edges: at texel `first`. The key is linear, and 32 roundings small.
+float nearest_key(RasterTriangle t, ivec3 edges, vec3 fractions, ivec2 size) {
+  vec3 weights = vec3(edges) + fractions;
+  float across = dot(vec3(steps_x(t)), t.z) * float(size.x);
+  float down = dot(vec3(steps_y(t)), t.z) * float(size.y);
+  float margin = 4e-6 * (dot(abs(weights), t.z) + dot(vec3(abs(steps_x(t))), t.z) * float(size.x) + dot(vec3(abs(steps_y(t))), t.z) * float(size.y));
+  return min(t.z_max, dot(weights, t.z) + max(across, 0.0) + max(down, 0.0) + margin);
+}
+
+void link(uint triangle, uint tile, uint first_texel, ivec3 edges, vec3 fractions, float nearest, uint node) {
   uint next = atomicExchange(Uints(push.heads).v[tile], node);
-  TileNodes(push.nodes).v[node] = TileNode(triangle, next, edges, fractions);
+  TileNodes(push.nodes).v[node] = TileNode(triangle, next, edges, fractions, nearest);
   if (next == NoIndex) RasterTiles(push.tiles).v[atomicAdd(Appended(push.appended).v.tiles, 1u)] = RasterTile(tile, first_texel);
 }
 
@@ -46,7 +55,9 @@ void main() {
     if (origin == NoTexel) continue;
     ivec2 seen_first = max(corner, first);
     ivec2 seen_last = min(corner + int(TileTexels) - 1, last);
-    if (push.flags == TestReceivers && !receivers_see(frame, map, t.view, seen_first, seen_last, near_m, t.z_max)) continue;
+    ivec3 seen_edges = edges + step_x * (seen_first.x - corner.x) + step_y * (seen_first.y - corner.y);
+    float nearest = nearest_key(t, seen_edges, fractions, seen_last - seen_first);
+    if (push.flags == TestReceivers && !receivers_see(frame, map, t.view, seen_first, seen_last, near_m, nearest)) continue;
     uint node = atomicAdd(appended.v.nodes, 1u);
     if (node < push.node_capacity) {
       uvec2 in_page = uvec2(corner) % PageSide;
@@ -54,10 +65,9 @@ void main() {
       // Pages of full side begin at least that far apart.
       const uint side = PageSide / TileTexels;
       uint number = origin / (PageSide * PageSide) * (side * side) + tile.y * side + tile.x;
-      link(index, number, origin + in_page.y * PageSide + in_page.x, edges, fractions, node);
+      link(index, number, origin + in_page.y * PageSide + in_page.x, edges, fractions, nearest, node);
     } else {
-      edges += step_x * (seen_first.x - corner.x) + step_y * (seen_first.y - corner.y);
-      draw_block(Uints(frame.v.pool), t, PageSide, origin, seen_first, seen_last, edges, fractions);
+      draw_block(Uints(frame.v.pool), t, PageSide, origin, seen_first, seen_last, seen_edges, fractions);
     }
   }
 }

@@ -1,7 +1,7 @@
 // One thread draws a triangle's texels in a block of a page. Includer: `masked`, masks[], push.
 #include "raster/page_raster_buffers.glsl"
 
-/// Level of detail of a triangle's mask: that of a texel at its middle.
+/// Level of detail of a triangle's mask: the whole one nearest to that of a texel at its middle, which is half the work of two.
 float mask_level(RasterTriangle t) {
   float q = t.q.x + t.q.y + t.q.z;
   vec2 uv = vec2(t.u.x + t.u.y + t.u.z, t.v.x + t.v.y + t.v.z) / q;
@@ -12,7 +12,7 @@ float mask_level(RasterTriangle t) {
   vec2 size = vec2(textureSize(masks[nonuniformEXT(Batches(push.batches).v[t.batch].mask)], 0)) / (q * third);
   vec2 across = (vec2(dot(x, t.u), dot(x, t.v)) - uv * dot(x, t.q)) * size;
   vec2 down = (vec2(dot(y, t.u), dot(y, t.v)) - uv * dot(y, t.q)) * size;
-  return 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+  return roundEven(0.5 * log2(max(max(dot(across, across), dot(down, down)), 1.0)));
 }
 
 /// Perspective texture coordinates at a texel, looked up in the mask.

@@ -44,8 +44,8 @@ void main() {
   for (uint node = Uints(push.heads).v[tile.tile]; node != NoIndex;) {
     TileNode share = TileNodes(push.nodes).v[node];
     node = share.next;
+    if (share.nearest <= uintBitsToFloat(farthest)) continue;
     RasterTriangle t = RasterTriangles(push.triangles).v[share.triangle];
-    if (floatBitsToUint(t.z_max) <= farthest) continue;
     draw_column(t, share.edges + steps_x(t) * own.x + steps_y(t) * own.y, share.fractions);
     farthest = nearest[0];
     [[unroll]] for (uint row = 1u; row < TileRows; ++row) farthest = min(farthest, nearest[row]);

@@ -31,8 +31,9 @@ struct TileNode {
   uint next;                 // or NoIndex
   ivec3 edges;
   vec3 fractions;
+  float nearest;             // depth key of the share: no texel has a larger one
 };
-UMB_ASSERT_SIZE(TileNode, 32);
+UMB_ASSERT_SIZE(TileNode, 36);
 
 /// A tile that has nodes.
 struct RasterTile {
