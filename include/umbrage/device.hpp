@@ -73,6 +73,7 @@ struct HeadlessDesc {
   bool validate = false;                      ///< VK_LAYER_KHRONOS_validation with synchronisation validation; refused when not installed.
   MessageCallback message = nullptr;          ///< Validation messages arrive here as errors and warnings.
   void* message_user = nullptr;
+  Capabilities wanted;                        ///< geometry_shader, vertex_layer, multiview, mesh_shader: enabled where the device has them.
   std::vector<const char*> instance_extensions;  ///< Further ones (a window's surface).
   std::vector<const char*> device_extensions;
   VkPhysicalDeviceFeatures features{};        ///< Further ones the program needs besides the library's.

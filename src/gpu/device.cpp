@@ -46,7 +46,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceDesc& desc) {
   Functions& vk = device->functions_;
   if (const char* missing = vk.load_instance(desc.instance, desc.get_instance_proc_addr))
     return Error{ErrorCode::unsupported, std::string("the instance does not offer ") + missing};
-  if (const char* missing = vk.load_device(desc.device, desc.enabled.debug_utils))
+  if (const char* missing = vk.load_device(desc.device, desc.enabled.debug_utils, desc.enabled.mesh_shader))
     return Error{ErrorCode::unsupported, std::string("the device does not offer ") + missing};
 
   VkPhysicalDeviceProperties properties;

@@ -22,7 +22,11 @@ namespace umbrage::gpu {
   X(vkCmdWriteTimestamp2) X(vkCmdPipelineBarrier2) X(vkCmdBindPipeline) X(vkCmdBindDescriptorSets)                 \
   X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdCopyBuffer) X(vkCmdFillBuffer)            \
   X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) X(vkCmdBindIndexBuffer)       \
-  X(vkCmdBindVertexBuffers) X(vkCmdDrawIndexedIndirectCount)
+  X(vkCmdBindVertexBuffers) X(vkCmdDrawIndexedIndirectCount) X(vkCmdCopyBufferToImage) X(vkCmdSetCullMode)         \
+  X(vkCmdSetFrontFace)
+
+/// Loaded only where VK_EXT_mesh_shader is enabled.
+#define UMB_MESH_FUNCTIONS(X) X(vkCmdDrawMeshTasksIndirectEXT)
 
 /// Loaded only where VK_EXT_debug_utils is enabled.
 #define UMB_DEBUG_FUNCTIONS(X)                                                                                      \
@@ -32,12 +36,13 @@ struct Functions {
 #define UMB_MEMBER(name) PFN_##name name = nullptr;
   UMB_INSTANCE_FUNCTIONS(UMB_MEMBER)
   UMB_DEVICE_FUNCTIONS(UMB_MEMBER)
+  UMB_MESH_FUNCTIONS(UMB_MEMBER)
   UMB_DEBUG_FUNCTIONS(UMB_MEMBER)
 #undef UMB_MEMBER
 
   /// Both return the name of the first function that is missing, or nullptr.
   const char* load_instance(VkInstance, PFN_vkGetInstanceProcAddr);
-  const char* load_device(VkDevice, bool debug_utils);
+  const char* load_device(VkDevice, bool debug_utils, bool mesh_shader);
 };
 
 }  // namespace umbrage::gpu

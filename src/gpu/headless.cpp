@@ -119,6 +119,22 @@ void merge(Features& into, const Features& more, size_t first) {
     std::memcpy(reinterpret_cast<std::byte*>(&into) + at, &a, sizeof a);
   }
 }
+
+/// Layered rendering's capabilities, where they are wanted and the device has them.
+void enable_wanted(const Capabilities& wanted, Requirements& needs, Capabilities& enabled, VkPhysicalDeviceMeshShaderFeaturesEXT& mesh,
+                   std::vector<const char*>& extensions) {
+  enabled.geometry_shader = wanted.geometry_shader && needs.available.geometry_shader;
+  enabled.vertex_layer = wanted.vertex_layer && needs.available.vertex_layer;
+  enabled.multiview = wanted.multiview && needs.available.multiview;
+  enabled.mesh_shader = wanted.mesh_shader && needs.available.mesh_shader;
+  if (enabled.geometry_shader) needs.features.features.geometryShader = VK_TRUE;
+  if (enabled.vertex_layer) needs.features_12.shaderOutputLayer = VK_TRUE;
+  if (enabled.multiview) needs.features_11.multiview = VK_TRUE;
+  if (!enabled.mesh_shader) return;
+  mesh.meshShader = mesh.taskShader = VK_TRUE;
+  extensions.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
+}
+
 struct InstanceMade {
   VkInstance instance = VK_NULL_HANDLE;
   bool debug_utils = false;
@@ -199,7 +215,14 @@ Result<HeadlessDevice> HeadlessDevice::create(const HeadlessDesc& desc) {
   constexpr size_t kFirst = offsetof(VkPhysicalDeviceVulkan12Features, samplerMirrorClampToEdge);
   static_assert(offsetof(VkPhysicalDeviceVulkan11Features, storageBuffer16BitAccess) == kFirst &&
                 offsetof(VkPhysicalDeviceVulkan13Features, robustImageAccess) == kFirst);
+  std::vector<const char*> extensions = desc.device_extensions;
+  VkPhysicalDeviceMeshShaderFeaturesEXT mesh{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT};
+  enable_wanted(desc.wanted, *needs, state->enabled, mesh, extensions);
   const void* chain = needs->chain();
+  if (mesh.meshShader) {
+    mesh.pNext = const_cast<void*>(chain);
+    chain = &mesh;
+  }
   merge(needs->features.features, desc.features, 0);
   merge(needs->features_11, desc.features_11, kFirst);
   merge(needs->features_12, desc.features_12, kFirst);
@@ -212,11 +235,11 @@ Result<HeadlessDevice> HeadlessDevice::create(const HeadlessDesc& desc) {
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, chain};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = static_cast<uint32_t>(desc.device_extensions.size());
-  info.ppEnabledExtensionNames = desc.device_extensions.data();
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = vk.vkCreateDevice(state->physical, &info, nullptr, &state->device);
   if (result != VK_SUCCESS) return gpu::vulkan_error(result, "vkCreateDevice", state->name);
-  if (const char* missing = vk.load_device(state->device, state->enabled.debug_utils))
+  if (const char* missing = vk.load_device(state->device, state->enabled.debug_utils, state->enabled.mesh_shader))
     return Error{ErrorCode::unsupported, state->name + " does not offer " + missing};
   vk.vkGetDeviceQueue(state->device, state->family, 0, &state->queue);
   return HeadlessDevice(std::move(state));

@@ -15,6 +15,7 @@ namespace umbrage::gpu {
 enum class Access : uint8_t {
   compute_read, compute_write,  // write: reads and writes
   vertex_read, vertex_attribute_read, fragment_read,
+  geometry_read,                // all stages before the rasteriser
   fragment_write,               // reads and writes
   indirect_read, index_read,
   transfer_read, transfer_write,

@@ -1,0 +1,47 @@
+// Array images that layered passes draw into, and their texels on the CPU.
+#pragma once
+#include <vector>
+
+#include "host/gpu_context.hpp"
+#include "umbrage/layered_pass.hpp"
+
+namespace app {
+
+struct LayerImagesDesc {
+  uint32_t width = 256, height = 256, layers = 1;
+  VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+  VkFormat color_format = VK_FORMAT_UNDEFINED;  ///< UNDEFINED: depth alone.
+  bool is_cube = false;                         ///< A cube map (array): layers is a multiple of 6.
+};
+
+/// A depth array image and, where wanted, a colour one, ready for LayeredPass::record.
+class LayerImages {
+ public:
+  static umbrage::Result<LayerImages> create(GpuContext&, const LayerImagesDesc&);
+  LayerImages(LayerImages&&) noexcept;
+  LayerImages& operator=(LayerImages&&) noexcept = delete;
+  ~LayerImages();
+  const LayerImagesDesc& desc() const { return desc_; }
+  umbrage::LayeredTargetDesc target() const;
+  VkImage depth() const { return depth_.image; }
+  VkImage color() const { return color_.image; }
+  /// All layers, one after the other, 0…1. Everything submitted has been waited for.
+  umbrage::Result<std::vector<float>> read_depth(GpuContext&);
+  /// Likewise; 16 bytes (RGBA32F) or 4 (RGBA8) a texel, as the format has it.
+  umbrage::Result<std::vector<std::byte>> read_color(GpuContext&);
+
+ private:
+  struct One {
+    VkImage image = VK_NULL_HANDLE;
+    VmaAllocation allocation = VK_NULL_HANDLE;
+  };
+  LayerImages() = default;
+  umbrage::Result<One> make(VkFormat, VkImageUsageFlags) const;
+  umbrage::Result<std::vector<std::byte>> read(GpuContext&, VkImage, VkImageAspectFlags, VkImageLayout,
+                                               uint32_t texel_bytes);
+  VmaAllocator allocator_ = VK_NULL_HANDLE;
+  LayerImagesDesc desc_;
+  One depth_, color_;
+};
+
+}  // namespace app
