@@ -13,7 +13,7 @@
 namespace reference {
 namespace {
 
-constexpr float start_offset = 1e-5f;  // of the scene's diagonal, along the normal
+constexpr float start_offset = 1e-5f;  // of the numbers' size, along the normal
 constexpr uint32_t packet_size = 8;
 
 /// Depth of a point as the light's views measure it: the cube face or the one view that shows it.
@@ -29,6 +29,14 @@ Ray shadow_ray(const Light& light, glm::vec3 start) {
   if (light.kind == app::LightKind::directional) return {start, -light.direction};
   const float depth = axis_depth(light, start);
   return {start, light.position - start, 0, depth > light.near ? 1 - light.near / depth : 0};
+}
+
+/// How far rays start from their surface. Positions are as wrong as their coordinates are large, so that these decide; in a
+/// picture of one corner of a large scene the scene's diagonal would lift grazing rays over what stands in their way.
+float offset_of(const SurfaceImage& image, float diagonal) {
+  float largest = 0;
+  for (const float coordinate : image.positions) largest = std::max(largest, std::isnan(coordinate) ? 0 : std::abs(coordinate));
+  return start_offset * std::min(largest, diagonal);
 }
 
 /// Eight shadow rays in Embree's layout with the pixels they belong to.
@@ -77,7 +85,8 @@ class EmbreeTracer final : public RayTracer {
     assert(image.positions.size() == 3 * pixels && image.normals.size() == 3 * pixels);
     assert(evaluated.size() == pixels && result.size() == pixels);
     std::fill(result.begin(), result.end(), not_evaluated);
-    parallel_rows(image.height, [&](uint32_t y) { trace_row(light, image, y, evaluated, result); });
+    const float offset = offset_of(image, blockers_.diagonal());
+    parallel_rows(image.height, [&](uint32_t y) { trace_row(light, image, offset, y, evaluated, result); });
   }
 
   void closest_hits(std::span<const Ray> rays, Faces faces, std::span<Hit> hits) const override {
@@ -90,7 +99,7 @@ class EmbreeTracer final : public RayTracer {
   }
 
  private:
-  void trace_row(const Light& light, const SurfaceImage& image, uint32_t y, std::span<const uint8_t> evaluated,
+  void trace_row(const Light& light, const SurfaceImage& image, float offset, uint32_t y, std::span<const uint8_t> evaluated,
                  std::span<uint8_t> result) const {
     ShadowPacket packet(blockers_.scene(), result);
     for (uint32_t x = 0; x < image.width; ++x) {
@@ -99,7 +108,7 @@ class EmbreeTracer final : public RayTracer {
       if (evaluated[pixel] == not_evaluated || std::isnan(position[0])) continue;
       const float* normal = &image.normals[3 * pixel];
       const glm::vec3 start = glm::vec3(position[0], position[1], position[2]) +
-                              glm::vec3(normal[0], normal[1], normal[2]) * (start_offset * blockers_.diagonal());
+                              glm::vec3(normal[0], normal[1], normal[2]) * offset;
       const Ray ray = shadow_ray(light, start);
       if (ray.far > 0) {
         packet.add(ray, pixel);
