@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "commands/bench.hpp"
 #include "commands/compare.hpp"
 #include "commands/info.hpp"
 #include "commands/output.hpp"
@@ -39,6 +40,9 @@ int run(int argc, char** argv, app::Outputs& outputs) {
   app::CompareOptions compare_options;
   CLI::App* compare = program.add_subcommand("compare", "Shadows against the CPU ray tracer, as JSON");
   app::add_compare_options(*compare, compare_options);
+  app::BenchOptions bench_options;
+  CLI::App* bench = program.add_subcommand("bench", "Measure; writes results, figures and a report");
+  app::add_bench_options(*bench, bench_options);
   app::InfoOptions info_options;
   CLI::App* info = program.add_subcommand("info", "Devices, what each can do and which presets it can run");
   app::add_info_options(*info, info_options);
@@ -58,6 +62,8 @@ int run(int argc, char** argv, app::Outputs& outputs) {
     result = app::run_render(render_options, outputs);
   else if (compare->parsed())
     result = app::run_compare(compare_options, outputs);
+  else if (bench->parsed())
+    result = app::run_bench(bench_options, outputs);
   else
     result = app::run_info(info_options);
   return result ? kDone : report(result.error().message, kFailed);

@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "host/textures.hpp"
+
 namespace app {
 
 using umbrage::Result;

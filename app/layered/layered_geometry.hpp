@@ -3,11 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "host/textures.hpp"
 #include "import/scene.hpp"
 #include "umbrage/layered_pass.hpp"
 
 namespace app {
+
+class TextureTable;
 
 /// What the meshes' spans refer to.
 struct LayeredArrays {

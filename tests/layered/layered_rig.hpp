@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 
+#include "host/textures.hpp"
 #include "layered/layer_images.hpp"
 #include "layered/layered_geometry.hpp"
 
