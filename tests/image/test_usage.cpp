@@ -28,9 +28,9 @@ TEST(Usage, HelpListsWhatWorksAndNothingElse) {
   const Outcome outcome = run_program({"--help"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"render", "compare", "info"})
+  for (const char* command : {"render", "compare", "bench", "info"})
     EXPECT_NE(outcome.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
-  for (const char* command : {"view", "bench", "diff"})
+  for (const char* command : {"view", "diff"})
     EXPECT_EQ(outcome.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   EXPECT_TRUE(run_program({"--version"}).out.starts_with("umbrage "));
 }
@@ -69,7 +69,10 @@ TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
 
 TEST(Usage, WrongCommandsExitWith2) {
   expect_error({}, 2, "--help");
-  expect_error({"view", "builtin:houses"}, 2, "there is no command \"view\"; choose from render, compare, info");
+  expect_error({"view", "builtin:houses"}, 2, "there is no command \"view\"; choose from render, compare, bench, info");
+  expect_error({"bench", "-o", "x"}, 2, "SUITE is required");
+  expect_error({"bench", "other", "-o", "x"}, 2, "layered");
+  expect_error({"bench", "layered"}, 2, "--output is required");
   expect_error({"--bad"}, 2, "");
   expect_error({"render"}, 2, "SCENE is required");
   expect_error({"render", "a.gltf"}, 2, "--output is required");
