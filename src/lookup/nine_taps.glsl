@@ -61,10 +61,11 @@ UMB_FN TapPages pages_around(Frame frame, Map map, uint view, uvec2 middle) {
   return around;
 }
 
-/// How far the receiver's plane is moved: at most a tenth of the way to the light, or grazing planes would lose what stands on
-/// them.
+/// How far the receiver's plane is moved: along the way to the light by eight texels at most, and by a twentieth of it, or
+/// grazing planes would lose what stands on them.
 UMB_FN float normal_offset(float texel_m, vec3 relative, vec3 normal) {
-  return clamp(NormalOffsetTexels * texel_m, 0.0f, max(-0.1f * dot(normal, relative), 0.0f));
+  float share = min(0.05f, 8.0f * texel_m / length(relative));
+  return clamp(NormalOffsetTexels * texel_m, 0.0f, max(-share * dot(normal, relative), 0.0f));
 }
 
 /// Adds (visibility, weight) of a tap along a direction whose axis depth is 1: visible when nothing nearer than the plane is
