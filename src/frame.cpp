@@ -20,31 +20,33 @@ void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
   // Used lights → their shadow views.
   views.record(recorder, block, counters, scene, clusters.used_lights(), plan.all_lights);
 
-  if (scene.light_slots() > 0 && plan.store == Store::page_pool) record_virtual_maps(recorder, plan);
-  if (scene.light_slots() > 0 && plan.store == Store::fixed_cubes) record_fixed_cubes(recorder, plan);
-
-  // Everything a lookup reads → the host's shading.
-  std::vector<const gpu::Buffer*>& published = published_;
-  published.assign({&block, &counters, &scene.light_buffer(), &scene.light_order_buffer(), &views.buffer()});
-  for (const gpu::Buffer* buffer : clusters.published()) published.push_back(buffer);
-  if (plan.store == Store::page_pool) {
-    for (const gpu::Buffer* buffer : maps.published()) published.push_back(buffer);
-    published.push_back(&pool.pool());
+  if (scene.light_slots() > 0 && plan.store == Store::fixed_cubes) {
+    record_fixed_cubes(recorder, plan);
+  } else if (scene.light_slots() > 0) {
+    record_requests(recorder, plan);
+    record_virtual_maps(recorder, plan);
   }
-  recorder.publish(published, plan.consumer_stages, &store.atlas());
+  publish(recorder, plan);
+}
+
+void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan) {
+  // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
+  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, backing(plan.store), plan.all_lights});
+
+  // Marked pages → places in the pool, cleared.
+  if (plan.store == Store::page_pool) pool.record(recorder, maps, block, counters);
 }
 
 void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) {
-  // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
-  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, pool.capacity_units(), plan.all_lights});
-
-  // Marked pages → places in the pool, cleared.
-  pool.record(recorder, maps, block, counters);
-
   // Maps → the batches whose shadows their receivers can see (O5…O7) → depth.
   const culling::MapCulling::Inputs cull{scene, block, counters, views.buffer(), maps.maps(), maps.projection(), maps.receiver_depth(),
                                          clusters.used_lights(), caster_shape(), plan.settings.caster_culling};
   map_culling.record_count(recorder, cull);
+  if (plan.store == Store::page_pool) record_pages(recorder, plan, cull);
+  if (plan.store == Store::physical_pool) record_layers(recorder, plan, cull);
+}
+
+void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
   for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
     map_culling.record_round(recorder, cull, round);
     const raster::PageWriterInputs write{scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(),
@@ -57,6 +59,34 @@ void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) 
       page_raster.record(recorder, write);
     }
   }
+}
+
+void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
+  const raster::LayerWriter::Inputs write{scene, block, counters, views.buffer(), maps.maps(), map_culling.items(), map_culling.draw_counts(),
+                                          map_culling.capacity(), images, image_table()};
+  layer_writer.record_clear(recorder, write);
+  for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
+    map_culling.record_round(recorder, cull, round);
+    layer_writer.record(recorder, write);
+  }
+}
+
+maps::Maps::Backing Frame::backing(Store kind) const {
+  if (kind == Store::page_pool) return {.capacity_units = pool.capacity_units()};
+  return {.block = {1, 1}, .capacity_units = UINT32_MAX, .images = image_table(), .image_count = static_cast<uint32_t>(images.images().size()),
+          .most_views = images.layout().most_views, .whole_images = true};
+}
+
+void Frame::publish(gpu::Recorder& recorder, const FramePlan& plan) {
+  // Everything a lookup reads → the host's shading.
+  published_.assign({&block, &counters, &scene.light_buffer(), &scene.light_order_buffer(), &views.buffer()});
+  for (const gpu::Buffer* buffer : clusters.published()) published_.push_back(buffer);
+  if (plan.store != Store::fixed_cubes)
+    for (const gpu::Buffer* buffer : maps.published()) published_.push_back(buffer);
+  if (plan.store == Store::page_pool) published_.push_back(&pool.pool());
+  published_images_.assign({&store.atlas()});
+  for (const gpu::Image* image : images.published()) published_images_.push_back(image);
+  recorder.publish(published_, published_images_, plan.consumer_stages);
 }
 
 void Frame::record_fixed_cubes(gpu::Recorder& recorder, const FramePlan& plan) {
@@ -101,12 +131,16 @@ Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Mem
   if (auto ok = make(frame->scene_pipelines, scene::ScenePipelines::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->clusters, clusters::Clusters::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->views, maps::Views::create(factory)); !ok) return ok.error();
-  if (settings.store == Store::page_pool) {
+  if (settings.store != Store::fixed_cubes) {
     if (auto ok = make(frame->maps, maps::Maps::create(factory)); !ok) return ok.error();
-    if (auto ok = make(frame->pool, store::PagePool::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->map_culling, culling::MapCulling::create(factory)); !ok) return ok.error();
+  }
+  if (settings.store == Store::page_pool) {
+    if (auto ok = make(frame->pool, store::PagePool::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->page_raster, raster::PageRaster::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->page_fragments, raster::PageFragments::create(factory)); !ok) return ok.error();
+  } else if (settings.store == Store::physical_pool) {
+    if (auto ok = make(frame->layer_writer, raster::LayerWriter::create(factory, VK_FORMAT_D16_UNORM)); !ok) return ok.error();
   } else {
     if (auto ok = make(frame->culling, culling::CasterCulling::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->writers, raster::Writers::create(factory)); !ok) return ok.error();
@@ -114,6 +148,7 @@ Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Mem
   if (auto ok = make(frame->block, buffer(sizeof(FrameBlock), "frame")); !ok) return ok.error();
   if (auto ok = make(frame->counters, buffer(sizeof(shared::FrameCounters), "counters")); !ok) return ok.error();
   frame->published_.reserve(32);
+  frame->published_images_.reserve(shared::MaxMapImages + 1);
   frame->max_draws = device.limits().max_draw_indirect_count;
   return frame;
 }

@@ -1,11 +1,13 @@
 // One frame on the device: the stages and what passes between them.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "clusters/clusters.hpp"
 #include "culling/caster_culling.hpp"
 #include "culling/map_culling.hpp"
 #include "gpu/recorder.hpp"
+#include "raster/layer_writer.hpp"
 #include "raster/page_fragments.hpp"
 #include "raster/page_raster.hpp"
 #include "raster/writers.hpp"
@@ -31,6 +33,7 @@ struct FramePlan {
 struct FrameBlock {
   shared::FrameRecord record;
   shared::TreeShape caster_shape, light_shape;
+  std::array<shared::MapImage, shared::MaxMapImages> images;
 };
 
 struct Frame {
@@ -44,18 +47,23 @@ struct Frame {
   void record_statistics(gpu::Recorder&, const gpu::Buffer& target);
 
   VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }
+  VkDeviceAddress image_table() const { return block.address() + offsetof(FrameBlock, images); }
   VkDeviceAddress light_shape() const { return block.address() + offsetof(FrameBlock, light_shape); }
 
   scene::ScenePipelines scene_pipelines;
   scene::GpuScene scene;
   clusters::Clusters clusters;
   maps::Views views;
-  // Store::page_pool
+  // Virtual shadow maps
   maps::Maps maps;
-  store::PagePool pool;
   culling::MapCulling map_culling;
+  // Store::page_pool
+  store::PagePool pool;
   raster::PageRaster page_raster;
   raster::PageFragments page_fragments;
+  // Store::physical_pool
+  store::MapImages images;
+  raster::LayerWriter layer_writer;
   // Store::fixed_cubes
   store::FixedCubes store;
   culling::CasterCulling culling;
@@ -64,9 +72,15 @@ struct Frame {
   uint32_t max_draws = 0;
 
  private:
+  void record_requests(gpu::Recorder&, const FramePlan&);
   void record_virtual_maps(gpu::Recorder&, const FramePlan&);
+  void publish(gpu::Recorder&, const FramePlan&);
+  void record_pages(gpu::Recorder&, const FramePlan&, const culling::MapCulling::Inputs&);
+  void record_layers(gpu::Recorder&, const FramePlan&, const culling::MapCulling::Inputs&);
+  maps::Maps::Backing backing(Store) const;
   void record_fixed_cubes(gpu::Recorder&, const FramePlan&);
   std::vector<const gpu::Buffer*> published_;   // kept, so that recording allocates nothing
+  std::vector<const gpu::Image*> published_images_;
   Frame(const gpu::Device& device, gpu::Memory& memory, const StaticSettings& settings) : scene(device, memory, settings) {}
 };
 

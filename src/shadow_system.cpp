@@ -33,6 +33,7 @@ Result<ShadowSystem> ShadowSystem::create(const DeviceDesc& desc, const StaticSe
   auto device = gpu::Device::create(desc);
   if (!device) return device.error();
   state->device = std::move(*device);
+  if (auto ok = state->check_device(); !ok) return ok.error();
   state->memory = std::make_unique<gpu::Memory>(*state->device);
   auto pipelines = gpu::PipelineFactory::create(*state->device, shared::MaxMasks);
   if (!pipelines) return pipelines.error();
@@ -141,6 +142,7 @@ ShaderInterface ShadowSystem::shader_interface(CameraId) const {
   return {.frame = state_->frame->block.address(), .set = state_->current ? state_->current->host_set : VK_NULL_HANDLE};
 }
 
+uint32_t ShadowSystem::shader_store() const { return state_->shader_store(); }
 VkDescriptorSetLayout ShadowSystem::descriptor_set_layout() const { return state_->host_layout; }
 void ShadowSystem::collect(uint64_t completed_serial) { state_->collect(completed_serial); }
 const Statistics& ShadowSystem::statistics() const { return state_->statistics; }

@@ -2,6 +2,7 @@
 #include "shadow_system_state.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace umbrage {
@@ -14,11 +15,23 @@ ShadowSystem::State::~State() {
   if (host_layout) vk.vkDestroyDescriptorSetLayout(device->handle(), host_layout, device->callbacks());
 }
 
+Result<void> ShadowSystem::State::check_device() const {
+  if (settings.store == Store::physical_pool && !device->capabilities().vertex_layer)
+    return Error{ErrorCode::unsupported, "store=physical_pool needs shaderOutputLayer (Capabilities::vertex_layer), which " + device->name() +
+                                             " lacks or the host has not enabled"};
+  return {};
+}
+
 Result<void> ShadowSystem::State::create_host_layout() {
-  const VkDescriptorSetLayoutBinding atlas{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr};
-  VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-  info.bindingCount = 1;
-  info.pBindings = &atlas;
+  const std::array<VkDescriptorSetLayoutBinding, 2> images{{{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr},
+                                                           {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr}}};
+  const std::array<VkDescriptorBindingFlags, 2> partly{0, VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT};
+  VkDescriptorSetLayoutBindingFlagsCreateInfo flags{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
+  flags.bindingCount = static_cast<uint32_t>(partly.size());
+  flags.pBindingFlags = partly.data();
+  VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags};
+  info.bindingCount = static_cast<uint32_t>(images.size());
+  info.pBindings = images.data();
   VkResult result = device->vk().vkCreateDescriptorSetLayout(device->handle(), &info, device->callbacks(), &host_layout);
   if (result != VK_SUCCESS) return gpu::vulkan_error(result, "vkCreateDescriptorSetLayout", "host");
   VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
@@ -31,7 +44,7 @@ Result<void> ShadowSystem::State::create_host_layout() {
 }
 
 Result<void> ShadowSystem::State::create_sets(uint32_t frames_in_flight) {
-  const std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 3 * frames_in_flight},
+  const std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (3 + shared::MaxMapImages) * frames_in_flight},
                                                    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::MaxMasks}}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT;
@@ -90,14 +103,14 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   statistics.triangles_drawn = uint64_t(counters.triangles_drawn_high) << 32 | counters.triangles_drawn_low;
   statistics.cpu_record_ms = slot.cpu_record_ms;
   degraded = slot.without_map;
-  if (settings.store == Store::page_pool) read_page_statistics(report);
+  if (has_virtual_maps()) read_map_statistics(report);
   const std::byte* words = slot.statistics.mapped() + sizeof report;
   for (uint32_t light = 0; light < slot.light_slots; ++light) {
     uint32_t word;
     std::memcpy(&word, words + light * sizeof word, sizeof word);
     if (word >> shared::LightShiftAt)
       degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::coarser,
-                          uint64_t(counters.pool_units_asked - std::min(counters.pool_units, counters.pool_units_asked)) * shared::PoolUnit * sizeof(uint32_t)});
+                          uint64_t(counters.pool_units_asked - std::min(counters.pool_units, counters.pool_units_asked)) * shared::PoolUnit * texel_bytes()});
     if (word & shared::LightLacksCasters)
       degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::casters_missing,
                           (counters.caster_pairs - counters.pair_limit) * (sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand))});
@@ -113,7 +126,7 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   }
 }
 
-void ShadowSystem::State::read_page_statistics(const shared::FrameReport& report) {
+void ShadowSystem::State::read_map_statistics(const shared::FrameReport& report) {
   const shared::FrameCounters& counters = report.counters;
   statistics.shadow_maps = counters.maps;
   statistics.shadow_views = counters.receiver_views;
@@ -136,11 +149,18 @@ Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settin
   const std::array<uint32_t, 2> wanted{frame_settings.min_resolution, frame_settings.max_resolution};
   if (!frame->scene.lights_edited() && wanted == laid_out_for) return {};
   std::vector<uint32_t> changed;
-  const uint64_t budget_bytes = uint64_t(settings.budget_mib) << 20;
   if (settings.store == Store::page_pool) {
-    views = store::number_views(frame->scene.lights(), budget_bytes, changed, without_map);
+    views = store::number_views(frame->scene.lights(), store::least_room_of_pool(budget_bytes()), changed, without_map);
+  } else if (settings.store == Store::physical_pool) {
+    store::ImageDemand demand{.finest = frame_settings.max_resolution, .texels = budget_bytes() / texel_bytes(),
+                              .most_side = device->limits().max_image_side, .most_layers = device->limits().max_image_layers};
+    const store::LeastRoom room = store::least_room_of_images(demand, texel_bytes());
+    views = store::number_views(frame->scene.lights(), room, changed, without_map);
+    // In powers of two, so that a light more or less makes no new images.
+    demand.views = static_cast<uint32_t>(std::min<uint64_t>(std::bit_ceil(views), room.views));
+    image_layout = store::lay_out_images(demand);
   } else {
-    layout = store::lay_out(frame->scene.lights(), budget_bytes, device->limits().max_image_side, frame_settings, changed, without_map);
+    layout = store::lay_out(frame->scene.lights(), budget_bytes(), device->limits().max_image_side, frame_settings, changed, without_map);
     views = layout.views;
   }
   for (const uint32_t slot : changed) frame->scene.light_changed(slot);
@@ -155,7 +175,11 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   if (auto ok = frame->views.reserve(*device, *memory, views, outgrown); !ok) return ok.error();
   // The include names the atlas, so that there is one in any case.
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
-  if (auto ok = settings.store == Store::page_pool ? reserve_page_pool(desc) : reserve_fixed_cubes(desc); !ok) return ok.error();
+  if (auto ok = has_virtual_maps() ? reserve_virtual_maps(desc) : reserve_fixed_cubes(desc); !ok) return ok.error();
+  if (settings.store == Store::page_pool)
+    if (auto ok = reserve_page_pool(desc); !ok) return ok.error();
+  if (settings.store == Store::physical_pool)
+    if (auto ok = reserve_physical_pool(desc); !ok) return ok.error();
   const VkDeviceSize bytes = sizeof(shared::FrameReport) + light_slots * sizeof(uint32_t);
   if (!slot.statistics || slot.statistics.size() < bytes) {
     auto made = gpu::Buffer::create(*device, *memory, 2 * bytes, gpu::MemoryKind::readback, "statistics");
@@ -170,6 +194,8 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
   known.shadow_memory_bytes = frame->store.texels() * sizeof(uint32_t);
   if (settings.store == Store::page_pool) {
     known.shadow_memory_bytes = frame->pool.pool().size();
+  } else if (settings.store == Store::physical_pool) {
+    known.shadow_memory_bytes = image_layout.texels * texel_bytes();
   } else {
     known.map_resolution = layout.resolution;
     known.texels_allocated = frame->store.texels();
@@ -188,7 +214,7 @@ Result<void> ShadowSystem::State::reserve_fixed_cubes(const FrameDesc& desc) {
                                 traditional ? raster::kViewsAtOnce : 0, scene.caster_slots(), outgrown);
 }
 
-Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
+Result<void> ShadowSystem::State::reserve_virtual_maps(const FrameDesc& desc) {
   const uint32_t light_slots = frame->scene.light_slots();
   // At least what every light's coarsest map and whole map take; more from what frames report.
   map_sizes.light_slots = std::max(map_sizes.light_slots, light_slots);
@@ -200,17 +226,26 @@ Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
   const auto grid_bytes = [&] { return uint64_t(map_sizes.receiver_views) * map_sizes.receiver_grid * map_sizes.receiver_grid * sizeof(uint32_t); };
   while (map_sizes.receiver_grid > 1 && grid_bytes() > kMaxGridBytes) map_sizes.receiver_grid /= 2;
   if (auto ok = frame->maps.reserve(*device, *memory, map_sizes, outgrown); !ok) return ok;
-  if (auto ok = frame->pool.reserve(*device, *memory, uint64_t(settings.budget_mib) << 20, map_sizes.words, outgrown); !ok) return ok;
-  const uint32_t capacity = std::max({caster_capacity(), frame->map_culling.capacity(), 1024u});
+  const uint32_t most = settings.store == Store::physical_pool ? raster::kLayerItems : UINT32_MAX;
+  const uint32_t capacity = std::min(std::max({caster_capacity(), frame->map_culling.capacity(), 1024u}), most);
   if (auto ok = frame->map_culling.reserve(*device, *memory, map_sizes.maps, capacity, outgrown); !ok) return ok;
-  if (auto ok = frame->map_culling.prepare(*pipelines, desc.settings.caster_culling); !ok) return ok;
-  if (desc.settings.writer == Writer::fragments) return frame->page_fragments.reserve(*device, *memory);
-  return frame->page_raster.reserve(*device, *memory, large_triangles, uint64_t(settings.budget_mib) << 20, outgrown);
+  return frame->map_culling.prepare(*pipelines, desc.settings.caster_culling);
 }
 
-/// (batch, view) pairs of fixed cubes, (batch, map) pairs of the page pool.
+Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
+  if (auto ok = frame->pool.reserve(*device, *memory, budget_bytes(), map_sizes.words, outgrown); !ok) return ok;
+  if (desc.settings.writer == Writer::fragments) return frame->page_fragments.reserve(*device, *memory);
+  return frame->page_raster.reserve(*device, *memory, large_triangles, budget_bytes(), outgrown);
+}
+
+Result<void> ShadowSystem::State::reserve_physical_pool(const FrameDesc& desc) {
+  if (auto ok = frame->images.reserve(*device, *memory, image_layout, VK_FORMAT_D16_UNORM, retired, desc.serial); !ok) return ok;
+  return frame->layer_writer.reserve(*device, *memory, image_layout, outgrown);
+}
+
+/// (batch, view) pairs of fixed cubes, (batch, map) pairs of virtual shadow maps.
 uint64_t ShadowSystem::State::most_caster_pairs() const {
-  const uint64_t targets = settings.store == Store::page_pool ? map_sizes.maps : views;
+  const uint64_t targets = has_virtual_maps() ? map_sizes.maps : views;
   return targets * std::max(frame->scene.casters(), 1u);
 }
 
@@ -223,7 +258,7 @@ uint32_t ShadowSystem::State::caster_capacity() const {
 }
 
 uint32_t ShadowSystem::State::caster_pairs_per_round() const {
-  return settings.store == Store::page_pool ? frame->map_culling.capacity() : frame->culling.capacity();
+  return has_virtual_maps() ? frame->map_culling.capacity() : frame->culling.capacity();
 }
 
 uint32_t ShadowSystem::State::plan_rounds() {
@@ -232,6 +267,15 @@ uint32_t ShadowSystem::State::plan_rounds() {
   // Half as many again as any frame has needed: movement adds pairs. With nothing known, the most there can be.
   const uint64_t expected = caster_pairs_known ? std::min(most, caster_pairs_seen * 3 / 2) : most;
   return static_cast<uint32_t>(std::clamp<uint64_t>((expected + capacity - 1) / capacity, 1, kMaxRounds));
+}
+
+uint32_t ShadowSystem::State::shader_store() const {
+  switch (settings.store) {
+    case Store::fixed_cubes: return shared::StoreAtlas;
+    case Store::page_pool: return shared::StorePool;
+    case Store::physical_pool: return shared::StoreImages;
+  }
+  return shared::StorePool;
 }
 
 void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraRecord& camera, const FrameSlot& slot) const {
@@ -245,42 +289,36 @@ void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraReco
   frame->clusters.fill(record);
   frame->views.fill(record);
   frame->store.fill(record);
-  record.store = settings.store == Store::page_pool ? shared::StorePool : shared::StoreAtlas;
   record.tap_counts = slot.statistics.address();
-  if (settings.store == Store::page_pool) {
-    frame->maps.fill(record);
-    frame->pool.fill(record);
-  }
+  if (has_virtual_maps()) frame->maps.fill(record);
+  record.store = shader_store();
+  if (settings.store == Store::page_pool) frame->pool.fill(record);
+  if (settings.store == Store::physical_pool) record.depth_step = 1.0f / 65535.0f;
+  std::copy(image_layout.images.begin(), image_layout.images.end(), block.images.begin());
   block.caster_shape = scene::tree_shape(frame->scene.caster_slots());
   block.light_shape = scene::tree_shape(frame->scene.light_slots());
 }
 
 void ShadowSystem::State::write_sets(FrameSlot& slot, const CameraDesc& camera) {
-  std::array<VkDescriptorImageInfo, 3> images{};
-  images[0] = {VK_NULL_HANDLE, camera.depth, camera.depth_layout};
-  images[1] = {VK_NULL_HANDLE, frame->store.atlas().view(), VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL};
-  images[2] = {VK_NULL_HANDLE, camera.normal, camera.normal_layout};
-  std::array<VkWriteDescriptorSet, 3> writes{};
-  const auto write = [&](VkDescriptorSet set, uint32_t binding, const VkDescriptorImageInfo& image) {
-    VkWriteDescriptorSet out{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    out.dstSet = set, out.dstBinding = binding, out.descriptorCount = 1;
-    out.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    out.pImageInfo = &image;
-    return out;
-  };
-  writes[0] = write(slot.frame_set, 0, images[0]);
-  writes[1] = write(slot.host_set, 0, images[1]);
-  writes[2] = write(slot.frame_set, 1, images[2]);
   const gpu::Functions& vk = device->vk();
-  vk.vkUpdateDescriptorSets(device->handle(), camera.normal ? 3 : 2, writes.data(), 0, nullptr);
-
+  const auto write = [&](VkDescriptorSet set, uint32_t binding, uint32_t element, const VkDescriptorImageInfo& image, VkDescriptorType type) {
+    VkWriteDescriptorSet out{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    out.dstSet = set, out.dstBinding = binding, out.dstArrayElement = element, out.descriptorCount = 1;
+    out.descriptorType = type;
+    out.pImageInfo = &image;
+    vk.vkUpdateDescriptorSets(device->handle(), 1, &out, 0, nullptr);
+  };
+  constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+  constexpr VkImageLayout kDepthRead = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+  write(slot.frame_set, 0, 0, {VK_NULL_HANDLE, camera.depth, camera.depth_layout}, kSampled);
+  if (camera.normal) write(slot.frame_set, 1, 0, {VK_NULL_HANDLE, camera.normal, camera.normal_layout}, kSampled);
+  write(slot.host_set, 0, 0, {VK_NULL_HANDLE, frame->store.atlas().view(), kDepthRead}, kSampled);
+  for (uint32_t i = 0; i < frame->images.images().size(); ++i)
+    write(slot.host_set, 1, i, {VK_NULL_HANDLE, frame->images.images()[i].view(), kDepthRead}, kSampled);
   for (const uint32_t mask : frame->scene.new_masks()) {
     const auto& entry = frame->scene.masks().at(mask);
     const VkDescriptorImageInfo image{entry.sampler ? entry.sampler : mask_sampler, entry.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    VkWriteDescriptorSet out = write(mask_set, 0, image);
-    out.dstArrayElement = mask;
-    out.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    vk.vkUpdateDescriptorSets(device->handle(), 1, &out, 0, nullptr);
+    write(mask_set, 0, mask, image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
   }
   frame->scene.new_masks().clear();
 }

@@ -31,16 +31,24 @@ struct ShadowSystem::State {
   static constexpr uint32_t kMaxLargeTriangles = 1u << 19;  // queued at once, 348 bytes each; more are drawn by a thread each
 
   ~State();
+  /// What the settings' store needs of the device.
+  Result<void> check_device() const;
   Result<void> create_sets(uint32_t frames_in_flight);
   Result<void> create_host_layout();
   Result<FrameSlot*> free_slot(const FrameDesc&);
   void collect(uint64_t completed_serial);
   void read_statistics(const FrameSlot&);
-  void read_page_statistics(const shared::FrameReport&);
+  void read_map_statistics(const shared::FrameReport&);
   Result<void> lay_out_maps(const FrameSettings&);
   Result<void> reserve(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
   Result<void> reserve_fixed_cubes(const FrameDesc&);
+  Result<void> reserve_virtual_maps(const FrameDesc&);
   Result<void> reserve_page_pool(const FrameDesc&);
+  Result<void> reserve_physical_pool(const FrameDesc&);
+  uint32_t shader_store() const;
+  bool has_virtual_maps() const { return settings.store != Store::fixed_cubes; }
+  uint64_t texel_bytes() const { return settings.store == Store::physical_pool ? sizeof(uint16_t) : sizeof(uint32_t); }
+  uint64_t budget_bytes() const { return uint64_t(settings.budget_mib) << 20; }
   uint64_t most_caster_pairs() const;
   uint32_t caster_capacity() const;
   uint32_t caster_pairs_per_round() const;
@@ -66,7 +74,8 @@ struct ShadowSystem::State {
   store::AtlasLayout layout;        // fixed cubes
   uint32_t large_triangles = 1u << 17;  // page pool: room in the queue, grown from what frames report
   uint32_t views = 0;               // of all lights
-  maps::Maps::Sizes map_sizes;      // page pool: grown from what frames report
+  store::ImageLayout image_layout;  // stores of images
+  maps::Maps::Sizes map_sizes;      // virtual shadow maps: grown from what frames report
   std::array<uint32_t, 2> laid_out_for{};   // min and max resolution
   std::vector<LightStatus> without_map;
   std::vector<gpu::Buffer> outgrown;

@@ -13,8 +13,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Every preset there is so far runs with the required features alone.
-constexpr const char* kPresetNeeds = "the required features";
+std::string needs_text(const PresetEntry& entry) {
+  return entry.needs.empty() ? "the required features" : "the required features and " + entry.needs;
+}
+
+/// Of a device that umbrage does not look at further there are none.
+PresetEntry preset_entry(const DeviceEntry& device, size_t index) {
+  return index < device.presets.size() ? device.presets[index] : PresetEntry{.needs = {}, .reason = device.reason};
+}
 
 Json device_object(const DeviceEntry& device, size_t index) {
   Json checks = Json::array();
@@ -24,10 +30,14 @@ Json device_object(const DeviceEntry& device, size_t index) {
                       {"supported", check.supported},
                       {"purpose", check.purpose}});
   Json modes = Json::array();
-  for (const umbrage::Preset& preset : umbrage::presets()) {
-    Json mode{
-        {"preset", preset.name}, {"summary", preset.summary}, {"needs", kPresetNeeds}, {"runs", device.is_supported}};
-    if (!device.is_supported) mode["reason"] = device.reason;
+  for (size_t i = 0; i < umbrage::presets().size(); ++i) {
+    const umbrage::Preset& preset = umbrage::presets()[i];
+    const PresetEntry entry = preset_entry(device, i);
+    Json mode{{"preset", preset.name},
+              {"summary", preset.summary},
+              {"needs", needs_text(entry)},
+              {"runs", entry.reason.empty()}};
+    if (!entry.reason.empty()) mode["reason"] = entry.reason;
     modes.push_back(std::move(mode));
   }
   Json object{{"index", index},          {"name", device.name}, {"type", device.type},
@@ -67,9 +77,13 @@ std::string device_text(const DeviceEntry& device, size_t index) {
     text += "  optional, for modes that name it\n" + check_lines(device, false);
   }
   text += "  presets\n";
-  for (const umbrage::Preset& preset : umbrage::presets())
-    text += std::string("    ") + (device.is_supported ? "yes  " : "no   ") + std::string(preset.name) + ": " +
-            std::string(preset.summary) + "; needs " + kPresetNeeds + "\n";
+  for (size_t i = 0; i < umbrage::presets().size(); ++i) {
+    const umbrage::Preset& preset = umbrage::presets()[i];
+    const PresetEntry entry = preset_entry(device, i);
+    text += std::string("    ") + (entry.reason.empty() ? "yes  " : "no   ") + std::string(preset.name) + ": " +
+            std::string(preset.summary) + "; needs " + needs_text(entry) +
+            (entry.reason.empty() ? "" : "; " + entry.reason) + "\n";
+  }
   return text;
 }
 

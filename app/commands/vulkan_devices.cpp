@@ -84,6 +84,25 @@ std::string version_text(uint32_t version) {
          std::to_string(VK_API_VERSION_PATCH(version));
 }
 
+/// What is required and missing, as a reason; nothing: empty.
+std::string missing(const std::vector<umbrage::RequirementCheck>& checks) {
+  std::string reason;
+  for (const umbrage::RequirementCheck& check : checks) {
+    if (check.required && !check.supported) reason += (reason.empty() ? "lacks " : ", ") + std::string(check.name);
+  }
+  return reason;
+}
+
+PresetEntry describe(const Instance& instance, VkPhysicalDevice device, const umbrage::Preset& preset, size_t required) {
+  const auto asked = umbrage::requirements(instance.get(), device, instance.loader_function(), preset.settings.fixed);
+  if (!asked) return {.needs = {}, .reason = asked.error().message};
+  PresetEntry entry{.needs = {}, .reason = missing(asked->checks)};
+  size_t number = 0;
+  for (const umbrage::RequirementCheck& check : asked->checks)
+    if (check.required && ++number > required) entry.needs += (entry.needs.empty() ? "" : ", ") + std::string(check.name);
+  return entry;
+}
+
 DeviceEntry describe(const Instance& instance, VkPhysicalDevice device) {
   VkPhysicalDeviceProperties properties{};
   instance.function<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(device, &properties);
@@ -99,10 +118,11 @@ DeviceEntry describe(const Instance& instance, VkPhysicalDevice device) {
   entry.driver = asked->driver;
   entry.is_supported = asked->supported;
   entry.checks = asked->checks;
-  for (const umbrage::RequirementCheck& check : entry.checks) {
-    if (!check.required || check.supported) continue;
-    entry.reason += (entry.reason.empty() ? "lacks " : ", ") + std::string(check.name);
-  }
+  entry.reason = missing(entry.checks);
+  const auto required = static_cast<size_t>(std::count_if(
+      entry.checks.begin(), entry.checks.end(), [](const umbrage::RequirementCheck& check) { return check.required; }));
+  for (const umbrage::Preset& preset : umbrage::presets())
+    entry.presets.push_back(describe(instance, device, preset, required));
   return entry;
 }
 

@@ -9,6 +9,12 @@
 
 namespace app {
 
+/// Whether a preset runs on a device.
+struct PresetEntry {
+  std::string needs;   ///< Beyond the required features; empty: nothing.
+  std::string reason;  ///< Why not; empty: it runs.
+};
+
 struct DeviceEntry {
   std::string name, type;  ///< type: "discrete", "integrated", "virtual", "software", "other".
   std::string driver;      ///< Empty below Vulkan 1.3, where umbrage does not look further.
@@ -16,6 +22,7 @@ struct DeviceEntry {
   bool is_supported = false;
   std::string reason;  ///< Why not, one line; empty when supported.
   std::vector<umbrage::RequirementCheck> checks;
+  std::vector<PresetEntry> presets;  ///< In the order of umbrage::presets().
 };
 
 struct DeviceList {

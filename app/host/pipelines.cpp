@@ -20,6 +20,15 @@ Result<Handle<VkShaderModule>> create_module(const GpuContext& context, Spirv wo
   return Handle<VkShaderModule>(context.device(), module, context.vk.vkDestroyShaderModule);
 }
 
+/// Specialization constants 0 and 1; shaders without them do not mind.
+struct Constants {
+  Constants(VkBool32 masked, uint32_t shadow_store) : values{masked, shadow_store} {}
+  Constants(const Constants&) = delete;
+  const uint32_t values[2];
+  static constexpr VkSpecializationMapEntry entries[] = {{0, 0, sizeof(uint32_t)}, {1, sizeof(uint32_t), sizeof(uint32_t)}};
+  const VkSpecializationInfo info{2, entries, sizeof(values), values};
+};
+
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
   VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
   info.stage = stage;
@@ -102,6 +111,8 @@ Result<Handle<VkPipeline>> create_compute_pipeline(const GpuContext& context, Vk
   if (!module) return module.error();
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module->get());
+  const Constants constants(VK_FALSE, context.shadow_store);
+  info.stage.pSpecializationInfo = &constants.info;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult result =
@@ -118,9 +129,8 @@ Result<Handle<VkPipeline>> create_graphics_pipeline(const GpuContext& context, V
   if (!fragment) return fragment.error();
   VkPipelineShaderStageCreateInfo stages[] = {stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex->get()),
                                               stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment->get())};
-  const VkSpecializationMapEntry entry{0, 0, sizeof(desc.masked)};
-  const VkSpecializationInfo specialization{1, &entry, sizeof(desc.masked), &desc.masked};
-  stages[1].pSpecializationInfo = &specialization;
+  const Constants constants(desc.masked, context.shadow_store);
+  stages[1].pSpecializationInfo = &constants.info;
 
   const FixedState state = fixed_state(desc);
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(),

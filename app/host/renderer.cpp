@@ -95,6 +95,7 @@ Result<Renderer> Renderer::create(const RendererDesc& desc, const Scene& scene) 
     return made.error();
   if (auto made = take(ShadowScene::create(*state->gpu, desc.settings.fixed), state->shadows); !made)
     return made.error();
+  state->gpu->shadow_store = state->shadows->system().shader_store();
   if (auto made = state->create_scene(desc, scene, pose(scene, 0.0)); !made) return made.error();
   if (auto made = state->create_passes(desc.max_lights); !made) return made.error();
   return Renderer(std::move(state));

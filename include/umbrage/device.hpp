@@ -19,7 +19,8 @@ struct Capabilities {
   bool vertex_layer = false;          ///< shaderOutputLayer: a vertex shader may choose the layer.
   bool multiview = false;
   bool mesh_shader = false;           ///< VK_EXT_mesh_shader, task and mesh.
-  bool sparse_residency = false;      ///< sparseBinding and sparseResidencyImage2D.
+  bool sparse_residency = false;      ///< sparseBinding, sparseResidencyImage2D, shaderStorageImageArrayDynamicIndexing and …NonUniformIndexing.
+  bool shader_residency = false;      ///< shaderResourceResidency: shaders learn whether a texel is bound.
   bool ray_query = false;
   bool ray_tracing_pipeline = false;
   bool debug_utils = false;           ///< VK_EXT_debug_utils: names and markers.
@@ -47,7 +48,8 @@ struct Requirements {
   const void* chain();
 };
 
-/// To be asked before device creation. Errors: unsupported (Vulkan < 1.3), vulkan.
+/// To be asked before device creation, for the settings that will be used: their store may need more. Errors: unsupported
+/// (Vulkan < 1.3), vulkan.
 Result<Requirements> requirements(VkInstance, VkPhysicalDevice, PFN_vkGetInstanceProcAddr, const StaticSettings& = {});
 
 enum class Severity : uint8_t { info, warning, error };
@@ -73,7 +75,7 @@ struct HeadlessDesc {
   bool validate = false;                      ///< VK_LAYER_KHRONOS_validation with synchronisation validation; refused when not installed.
   MessageCallback message = nullptr;          ///< Validation messages arrive here as errors and warnings.
   void* message_user = nullptr;
-  Capabilities wanted;                        ///< geometry_shader, vertex_layer, multiview, mesh_shader: enabled where the device has them.
+  Capabilities wanted;                        ///< Enabled where the device has them: geometry_shader, vertex_layer, multiview, mesh_shader, sparse_residency, shader_residency.
   std::vector<const char*> instance_extensions;  ///< Further ones (a window's surface).
   std::vector<const char*> device_extensions;
   VkPhysicalDeviceFeatures features{};        ///< Further ones the program needs besides the library's.

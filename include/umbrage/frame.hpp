@@ -46,7 +46,7 @@ struct FrameDesc {
 /// What a shading shader needs. Valid from record_shadows of a frame until record_scene of the next.
 struct ShaderInterface {
   VkDeviceAddress frame = 0;               ///< For umbrage_frame() in shaders/umbrage.glsl.
-  VkDescriptorSet set = VK_NULL_HANDLE;    ///< Store::fixed_cubes: bind it at the set number that UMBRAGE_SET names.
+  VkDescriptorSet set = VK_NULL_HANDLE;    ///< Bind it at the set number that UMBRAGE_SET names; the page pool needs none.
 };
 
 }  // namespace umbrage

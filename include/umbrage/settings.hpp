@@ -20,6 +20,7 @@ enum class LightAssignment : uint8_t {
 enum class Store : uint8_t {
   fixed_cubes,  ///< One map per light, all of one resolution, in a depth atlas: the baseline of today's engines.
   page_pool,    ///< Virtual maps in a software page table over one pool, allocated on the device.
+  physical_pool,///< O14: each map takes the next free one of a fixed set of D16 cube maps in resolution classes. Needs Capabilities::vertex_layer.
 };
 enum class MapLayout : uint8_t {
   exact,        ///< O8: up to maps_per_light maps per light, each as fine as its finest request, rounded up to whole pages.
@@ -46,9 +47,9 @@ enum class CasterCulling : uint8_t {
   receiver_grid,         ///< The same tile by tile, on a grid of farthest receivers (O22).
 };
 enum class Writer : uint8_t {
-  automatic,    ///< compute for the page pool, multi_draw for fixed cubes.
+  automatic,    ///< compute for the page pool, multi_draw for fixed cubes and the physical pool.
   traditional,  ///< Fixed cubes: one render pass per view; the batches are the GPU's, the passes are the CPU's.
-  multi_draw,   ///< Fixed cubes: one render pass, one GPU-written multi-draw for everything.
+  multi_draw,   ///< Fixed cubes: one render pass, one GPU-written multi-draw for everything. Physical pool: one for each class.
   compute,      ///< Page pool: triangles drawn by compute shaders.
   fragments,    ///< Page pool: one multi-draw without attachments, an atomic for every fragment.
 };

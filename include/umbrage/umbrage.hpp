@@ -54,6 +54,8 @@ class ShadowSystem {
   /// After depth (and normals) are visible to compute shaders: clusters, lights, shadow maps. Never fails.
   void record_shadows(VkCommandBuffer);
   ShaderInterface shader_interface(CameraId) const;
+  /// For UMBRAGE_STORE in the shader: which code lookups need.
+  uint32_t shader_store() const;
   /// Of shader_interface().set; owned by the system.
   VkDescriptorSetLayout descriptor_set_layout() const;
 

@@ -59,7 +59,7 @@ struct FrameRecord {
   uint atlas_columns;        // tiles along the atlas' side
   uint atlas_resolution;     // texels along a tile's side
   uint explicit_bounds;      // ClusterBounds
-  uint store;                // StoreAtlas, StorePool
+  uint store;                // StoreAtlas, …
   // Virtual shadow maps (maps/map_types.shared.h); 0 with fixed cubes.
   uint64_t maps;             // MapRecord
   uint64_t light_maps;       // LightMaps per light slot
@@ -71,12 +71,15 @@ struct FrameRecord {
   uint64_t receiver_depth;   // bits of the farthest receiver depth, receiver_grid² a view
   uint receiver_grid;        // cells along a view's side: 1 (PMCD), 2 … 32
   uint map_capacity;
+  float depth_step;          // of stored depths: what rounding may make of one more than it is; 0: 32 bits
+  uint pad;
 };
-UMB_ASSERT_SIZE(FrameRecord, 392);
+UMB_ASSERT_SIZE(FrameRecord, 400);
 
 /// FrameRecord::store.
 UMB_CONST uint StoreAtlas = 0u;
 UMB_CONST uint StorePool = 1u;
+UMB_CONST uint StoreImages = 2u;      // whole maps in images of D16 depth
 
 // --- Camera ---------------------------------------------------------------------------------------------------------
 

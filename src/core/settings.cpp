@@ -27,7 +27,7 @@ constexpr std::array<Choice, 2> kBounds{{{"implicit_cell", 0}, {"explicit_bits",
 constexpr std::array<Choice, 2> kAssignment{{{"hierarchy", 0}, {"brute_force", 1}}};
 constexpr std::array<Choice, 5> kCulling{{{"light_volume", 0}, {"view_mask", 1}, {"projection_map", 2}, {"projection_map_depth", 3}, {"receiver_grid", 4}}};
 constexpr std::array<Choice, 5> kWriter{{{"automatic", 0}, {"traditional", 1}, {"multi_draw", 2}, {"compute", 3}, {"fragments", 4}}};
-constexpr std::array<Choice, 2> kStore{{{"fixed_cubes", 0}, {"page_pool", 1}}};
+constexpr std::array<Choice, 3> kStore{{{"fixed_cubes", 0}, {"page_pool", 1}, {"physical_pool", 2}}};
 constexpr std::array<Choice, 2> kLayout{{{"exact", 0}, {"levels", 1}}};
 constexpr std::array<Choice, 2> kResolution{{{"paper", 0}, {"corrected", 1}}};
 constexpr std::array<Choice, 2> kBuckets{{{"logarithmic", 0}, {"linear", 1}}};
@@ -48,7 +48,8 @@ const std::array<Field, 20> kFields{{
     {{"writer", "automatic|traditional|multi_draw|compute|fragments",
       "fixed cubes: a render pass per view or one multi-draw; page pool: compute shaders or an atomic a fragment"},
      UMB_FIELD(frame.writer), kWriter},
-    {{"store", "fixed_cubes|page_pool", "one map per light in an atlas, or virtual maps in a pool of pages"}, UMB_FIELD(fixed.store), kStore},
+    {{"store", "fixed_cubes|page_pool|physical_pool", "one map per light in an atlas; or virtual maps in a pool of pages, or of whole cube maps (O14)"},
+     UMB_FIELD(fixed.store), kStore},
     {{"layout", "exact|levels", "maps as fine as asked and rounded up to pages (O8), or powers of two"}, UMB_FIELD(frame.layout), kLayout},
     {{"resolution", "paper|corrected", "texels a cluster asks for: O2 as printed, or texels that match pixels (E2, E3)"},
      UMB_FIELD(frame.resolution), kResolution},
@@ -87,6 +88,17 @@ std::string list_of(auto&& range, auto&& name) {
   return text;
 }
 
+bool draws_into(Writer writer, Store store) {
+  switch (writer) {
+    case Writer::automatic: return true;
+    case Writer::traditional: return store == Store::fixed_cubes;
+    case Writer::multi_draw: return store == Store::fixed_cubes || store == Store::physical_pool;
+    case Writer::compute:
+    case Writer::fragments: return store == Store::page_pool;
+  }
+  return false;
+}
+
 Settings fixed_cubes() {
   Settings settings;
   settings.fixed.store = Store::fixed_cubes;
@@ -103,10 +115,16 @@ Settings paper(CasterCulling culling, ClusterBounds bounds, uint32_t maps_per_li
   return settings;
 }
 
+Settings stored(Store store) {
+  Settings settings = paper(CasterCulling::projection_map_depth, ClusterBounds::explicit_bits);
+  settings.fixed.store = store;
+  return settings;
+}
+
 constexpr auto kCell = ClusterBounds::implicit_cell, kTight = ClusterBounds::explicit_bits;
 constexpr auto kPmcd = CasterCulling::projection_map_depth;
 
-const std::array<Preset, 16> kPresets{{
+const std::array<Preset, 17> kPresets{{
     {"default", "virtual maps in levels, texels that match pixels, culled on the receiver grid", Settings{}},
     {"fixed-cubes", "one cube map per light, one resolution for all that fits the budget, every face gets every batch in range", fixed_cubes()},
     {"naive", "the paper's baseline: matched resolution, every batch in the light's sphere to all six faces", paper(CasterCulling::light_volume, kCell)},
@@ -122,6 +140,8 @@ const std::array<Preset, 16> kPresets{{
     {"PMCD-EB-16SM", "PMCD-EB with 16 maps per light", paper(kPmcd, kTight, 16)},
     {"u2", "PMCD-EB with every resolution halved", paper(kPmcd, kTight, 4, 2)},
     {"u4", "PMCD-EB with every resolution quartered", paper(kPmcd, kTight, 4, 4)},
+    {"PMCD-EB-physical", "PMCD-EB in the paper's fallback: a fixed set of whole cube maps, the next free one of the closest size (O14)",
+     stored(Store::physical_pool)},
     {"default-u2", "default with every resolution halved", [] { Settings s; s.frame.undersampling = 2; return s; }()},
 }};
 }  // namespace
@@ -188,12 +208,12 @@ Result<void> validate(const Settings& settings) {
   if (settings.frame.min_resolution > settings.frame.max_resolution)
     return Error{ErrorCode::invalid_argument, "min_resolution " + std::to_string(settings.frame.min_resolution) +
                                                   " is larger than max_resolution " + std::to_string(settings.frame.max_resolution)};
-  const Writer writer = settings.frame.writer;
-  const bool of_pages = writer == Writer::compute || writer == Writer::fragments;
-  if (writer != Writer::automatic && of_pages != (settings.fixed.store == Store::page_pool))
-    return Error{ErrorCode::invalid_argument, "writer=" + get_setting(settings, "writer") + " does not draw into store=" + get_setting(settings, "store") +
-                                                  (of_pages ? ", which needs traditional, multi_draw" : ", which needs compute, fragments") + " or automatic"};
-  return {};
+  if (draws_into(settings.frame.writer, settings.fixed.store)) return {};
+  std::string fitting;
+  for (const Choice& choice : kWriter)
+    if (draws_into(static_cast<Writer>(choice.value), settings.fixed.store)) fitting.append(fitting.empty() ? "" : ", ").append(choice.name);
+  return Error{ErrorCode::invalid_argument, "writer=" + get_setting(settings, "writer") + " does not draw into store=" + get_setting(settings, "store") +
+                                                ", which needs " + fitting};
 }
 
 }  // namespace umbrage

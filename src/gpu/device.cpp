@@ -63,10 +63,12 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceDesc& desc) {
   if ((families[desc.queue_family].queueFlags & needed) != needed)
     return Error{ErrorCode::unsupported, "DeviceDesc: queue_family lacks graphics or compute"};
 
+  device->name_ = properties.deviceName;
   Limits& limits = device->limits_;
   limits.min_storage_alignment = std::max<VkDeviceSize>(properties.limits.minStorageBufferOffsetAlignment, 16);
   limits.max_image_side = std::min(properties.limits.maxImageDimension2D,
                                    std::min(properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight));
+  limits.max_image_layers = std::min(properties.limits.maxImageArrayLayers, properties.limits.maxFramebufferLayers);
   limits.max_draw_indirect_count = properties.limits.maxDrawIndirectCount;
   if (families[desc.queue_family].timestampValidBits > 0) limits.timestamp_period_ns = properties.limits.timestampPeriod;
 

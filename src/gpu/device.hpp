@@ -15,9 +15,12 @@ namespace umbrage::gpu {
 Error vulkan_error(VkResult, const char* call, std::string_view what);
 const char* result_name(VkResult);
 
+/// Sets the features of those capabilities that need no extension.
+void enable_capabilities(const Capabilities& wanted, Requirements&);
+
 struct Limits {
   VkDeviceSize min_storage_alignment = 16;
-  uint32_t max_image_side = 4096;
+  uint32_t max_image_side = 4096, max_image_layers = 256;
   uint32_t max_draw_indirect_count = 1;
   float timestamp_period_ns = 0;  ///< 0: the queue family has no timestamps.
 };
@@ -33,6 +36,7 @@ class Device {
   VkDevice handle() const { return desc_.device; }
   const VkAllocationCallbacks* callbacks() const { return desc_.allocation_callbacks; }
   const Limits& limits() const { return limits_; }
+  const std::string& name() const { return name_; }
   const Capabilities& capabilities() const { return desc_.enabled; }
   VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
   /// Index of a memory type of `allowed` with all of `wanted`, preferring `preferred` too; -1 = none.
@@ -45,6 +49,7 @@ class Device {
   Functions functions_;
   DeviceDesc desc_;
   Limits limits_;
+  std::string name_;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
 };

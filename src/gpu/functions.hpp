@@ -23,7 +23,7 @@ namespace umbrage::gpu {
   X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdCopyBuffer) X(vkCmdFillBuffer)            \
   X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) X(vkCmdBindIndexBuffer)       \
   X(vkCmdBindVertexBuffers) X(vkCmdDrawIndexedIndirectCount) X(vkCmdCopyBufferToImage) X(vkCmdSetCullMode)         \
-  X(vkCmdSetFrontFace)
+  X(vkCmdSetFrontFace) X(vkCmdDrawIndirectCount)
 
 /// Loaded only where VK_EXT_mesh_shader is enabled.
 #define UMB_MESH_FUNCTIONS(X) X(vkCmdDrawMeshTasksIndirectEXT)

@@ -120,15 +120,17 @@ void merge(Features& into, const Features& more, size_t first) {
   }
 }
 
-/// Layered rendering's capabilities, where they are wanted and the device has them.
+/// Capabilities that are wanted, where the device has them.
 void enable_wanted(const Capabilities& wanted, Requirements& needs, Capabilities& enabled, VkPhysicalDeviceMeshShaderFeaturesEXT& mesh,
                    std::vector<const char*>& extensions) {
   enabled.geometry_shader = wanted.geometry_shader && needs.available.geometry_shader;
   enabled.vertex_layer = wanted.vertex_layer && needs.available.vertex_layer;
   enabled.multiview = wanted.multiview && needs.available.multiview;
   enabled.mesh_shader = wanted.mesh_shader && needs.available.mesh_shader;
+  enabled.sparse_residency = wanted.sparse_residency && needs.available.sparse_residency;
+  enabled.shader_residency = wanted.shader_residency && needs.available.shader_residency;
+  gpu::enable_capabilities(enabled, needs);
   if (enabled.geometry_shader) needs.features.features.geometryShader = VK_TRUE;
-  if (enabled.vertex_layer) needs.features_12.shaderOutputLayer = VK_TRUE;
   if (enabled.multiview) needs.features_11.multiview = VK_TRUE;
   if (!enabled.mesh_shader) return;
   mesh.meshShader = mesh.taskShader = VK_TRUE;

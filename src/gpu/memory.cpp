@@ -172,48 +172,4 @@ Buffer::~Buffer() {
   if (handle_) device_->vk().vkDestroyBuffer(device_->handle(), handle_, device_->callbacks());
 }
 
-Result<DepthImage> DepthImage::create(const Device& device, Memory& memory, uint32_t width, uint32_t height, const char* name) {
-  VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-  info.imageType = VK_IMAGE_TYPE_2D;
-  info.format = VK_FORMAT_D32_SFLOAT;
-  info.extent = {width, height, 1};
-  info.mipLevels = info.arrayLayers = 1;
-  info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-  DepthImage image;
-  VkResult result = device.vk().vkCreateImage(device.handle(), &info, device.callbacks(), &image.handle_);
-  if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateImage", name);
-  image.device_ = &device;
-  image.width_ = width, image.height_ = height, image.name_ = name;
-  image.sync.resource = memory.name_resource();
-  VkMemoryRequirements needs;
-  device.vk().vkGetImageMemoryRequirements(device.handle(), image.handle_, &needs);
-  auto allocation = memory.allocate(needs, MemoryKind::device, name, true);
-  if (!allocation) return allocation.error();
-  image.allocation_ = std::move(*allocation);
-  result = device.vk().vkBindImageMemory(device.handle(), image.handle_, image.allocation_.memory, image.allocation_.offset);
-  if (result != VK_SUCCESS) return vulkan_error(result, "vkBindImageMemory", name);
-  VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-  view.image = image.handle_;
-  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-  view.format = info.format;
-  view.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-  result = device.vk().vkCreateImageView(device.handle(), &view, device.callbacks(), &image.view_);
-  if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateImageView", name);
-  device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image.handle_), name);
-  return image;
-}
-
-DepthImage::DepthImage(DepthImage&& other) noexcept { *this = std::move(other); }
-DepthImage& DepthImage::operator=(DepthImage&& other) noexcept {
-  std::swap(device_, other.device_), std::swap(handle_, other.handle_), std::swap(view_, other.view_);
-  std::swap(width_, other.width_), std::swap(height_, other.height_), std::swap(name_, other.name_);
-  std::swap(sync, other.sync), std::swap(allocation_, other.allocation_);
-  return *this;
-}
-DepthImage::~DepthImage() {
-  if (view_) device_->vk().vkDestroyImageView(device_->handle(), view_, device_->callbacks());
-  if (handle_) device_->vk().vkDestroyImage(device_->handle(), handle_, device_->callbacks());
-}
-
 }  // namespace umbrage::gpu

@@ -110,29 +110,4 @@ class Buffer {
 /// Replaces `target` by a larger buffer if it has fewer than `bytes`; the former one goes to `retired`. Contents are lost.
 Result<void> grow(Buffer& target, const Device&, Memory&, VkDeviceSize bytes, const char* name, std::vector<Buffer>& retired);
 
-/// A 2D depth image with one view. Move-only.
-class DepthImage {
- public:
-  static Result<DepthImage> create(const Device&, Memory&, uint32_t width, uint32_t height, const char* name);
-  DepthImage() = default;
-  DepthImage(DepthImage&&) noexcept;
-  DepthImage& operator=(DepthImage&&) noexcept;
-  ~DepthImage();
-  VkImage handle() const { return handle_; }
-  VkImageView view() const { return view_; }
-  uint32_t width() const { return width_; }
-  uint32_t height() const { return height_; }
-  explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
-  const char* name() const { return name_; }
-  mutable SyncState sync;
-
- private:
-  const Device* device_ = nullptr;
-  VkImage handle_ = VK_NULL_HANDLE;
-  VkImageView view_ = VK_NULL_HANDLE;
-  uint32_t width_ = 0, height_ = 0;
-  const char* name_ = "";
-  Allocation allocation_;
-};
-
 }  // namespace umbrage::gpu

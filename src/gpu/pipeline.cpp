@@ -32,13 +32,15 @@ Pipeline::~Pipeline() {
   if (handle_) device_->vk().vkDestroyPipeline(device_->handle(), handle_, device_->callbacks());
 }
 
-Result<std::unique_ptr<PipelineFactory>> PipelineFactory::create(const Device& device, uint32_t max_masks) {
+Result<std::unique_ptr<PipelineFactory>> PipelineFactory::create(const Device& device, uint32_t max_masks, uint32_t storage_images) {
   std::unique_ptr<PipelineFactory> factory(new PipelineFactory(device));
   const Functions& vk = device.vk();
-  const std::array<VkDescriptorSetLayoutBinding, 2> images{{
+  const std::array<VkDescriptorSetLayoutBinding, 3> images{{
       {0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},   // host's depth
-      {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}}; // host's normals
-  const std::array<VkDescriptorBindingFlags, 2> image_flags{0, VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT};
+      {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},   // host's normals
+      {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, storage_images, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+  constexpr VkDescriptorBindingFlags kPartly = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
+  const std::array<VkDescriptorBindingFlags, 3> image_flags{0, kPartly, kPartly};
   VkDescriptorSetLayoutBindingFlagsCreateInfo flags{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
   flags.bindingCount = static_cast<uint32_t>(image_flags.size());
   flags.pBindingFlags = image_flags.data();
@@ -147,14 +149,14 @@ Result<Pipeline> PipelineFactory::depth(const DepthShaders& shaders, const char*
   VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-  depth.depthTestEnable = depth.depthWriteEnable = shaders.has_attachment;
-  depth.depthCompareOp = VK_COMPARE_OP_GREATER;
+  depth.depthTestEnable = depth.depthWriteEnable = shaders.attachment != VK_FORMAT_UNDEFINED;
+  depth.depthCompareOp = shaders.compare;
   const std::array<VkDynamicState, 2> dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   VkPipelineDynamicStateCreateInfo dynamics{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
   dynamics.dynamicStateCount = static_cast<uint32_t>(dynamic.size());
   dynamics.pDynamicStates = dynamic.data();
   VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-  rendering.depthAttachmentFormat = shaders.has_attachment ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED;
+  rendering.depthAttachmentFormat = shaders.attachment;
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
   info.stageCount = fragment ? 2 : 1;
   info.pStages = stages.data();

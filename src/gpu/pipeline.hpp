@@ -31,20 +31,21 @@ class Pipeline {
   VkPipelineBindPoint bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
 };
 
-/// What a depth pipeline draws with: no culling, no depth clamp (near plane clips), reversed Z, D32.
+/// What a depth pipeline draws with: no culling, no depth clamp (near plane clips), reversed Z.
 struct DepthShaders {
   std::span<const uint32_t> vertex;
   std::span<const uint32_t> fragment;  ///< Empty: depth only.
   /// Instance attributes of binding 0, at locations 0, 1, …, 16 bytes each.
   std::span<const VkFormat> instance_attributes;
   uint32_t instance_stride_bytes = 0;
-  bool has_attachment = true;          ///< False: the fragment shader writes where it likes, and there is no depth test.
+  VkFormat attachment = VK_FORMAT_D32_SFLOAT;  ///< UNDEFINED: the fragment shader writes where it likes, and there is no depth test.
+  VkCompareOp compare = VK_COMPARE_OP_GREATER;
 };
 
-/// Owns descriptor set layouts and the pipeline layout. Set 0: per-frame images; set 1: masks.
+/// Owns descriptor set layouts and the pipeline layout. Set 0: per-frame images, and those that shaders write; set 1: masks.
 class PipelineFactory {
  public:
-  static Result<std::unique_ptr<PipelineFactory>> create(const Device&, uint32_t max_masks);
+  static Result<std::unique_ptr<PipelineFactory>> create(const Device&, uint32_t max_masks, uint32_t storage_images = 0);
   ~PipelineFactory();
   PipelineFactory(const PipelineFactory&) = delete;
   Result<Pipeline> compute(std::span<const uint32_t> spirv, const char* name, std::initializer_list<Constant> = {}) const;

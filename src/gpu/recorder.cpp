@@ -74,6 +74,11 @@ Barrier advance(SyncState& state, const AccessInfo& now, bool is_image) {
   state.read_stages |= now.stages;
   return barrier;
 }
+
+/// Words are written by shaders: such an image stays in one layout.
+VkImageLayout layout_of(const Image& image, VkImageLayout of_depth) {
+  return image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? of_depth : VK_IMAGE_LAYOUT_GENERAL;
+}
 }  // namespace
 
 Pass::Pass(Recorder& recorder, const char* name)
@@ -87,9 +92,10 @@ VkDeviceAddress Pass::write(const Buffer& buffer, Access access) {
   declare(buffer, info_of(access));
   return buffer.address();
 }
-void Pass::image(const DepthImage& image, Access access) {
+void Pass::image(const Image& image, Access access) {
   AccessInfo now = info_of(access);
   if (now.access == VK_ACCESS_2_SHADER_STORAGE_READ_BIT) now.access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+  now.layout = layout_of(image, now.layout);
   declare(image, now);
 }
 
@@ -107,7 +113,7 @@ void Pass::declare(const Buffer& buffer, const AccessInfo& now) {
   out.size = VK_WHOLE_SIZE;
 }
 
-void Pass::declare(const DepthImage& image, const AccessInfo& now) {
+void Pass::declare(const Image& image, const AccessInfo& now) {
   const Barrier barrier = advance(image.sync, now, true);
   log(image.sync, image.name(), now, barrier);
   if (!barrier.needed) return;
@@ -119,7 +125,7 @@ void Pass::declare(const DepthImage& image, const AccessInfo& now) {
   out.oldLayout = barrier.old_layout, out.newLayout = now.layout;
   out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   out.image = image.handle();
-  out.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+  out.subresourceRange = {image.aspect(), 0, 1, 0, image.layers()};
 }
 
 void Pass::log(const SyncState& state, const char* resource_name, const AccessInfo& now, const Barrier& barrier) const {
@@ -183,10 +189,11 @@ void Pass::dispatch_indirect_bound(const Buffer& arguments, VkDeviceSize offset)
   recorder_.device_.vk().vkCmdDispatchIndirect(recorder_.commands_, arguments.handle(), offset);
 }
 
-void Recorder::publish(std::span<const Buffer* const> buffers, VkPipelineStageFlags2 stages, const DepthImage* image) {
+void Recorder::publish(std::span<const Buffer* const> buffers, std::span<const Image* const> images, VkPipelineStageFlags2 stages) {
   Pass shown = pass("publish");
   for (const Buffer* buffer : buffers) shown.declare(*buffer, {stages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false});
-  if (image) shown.declare(*image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false});
+  for (const Image* image : images)
+    shown.declare(*image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, layout_of(*image, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL), false});
   shown.flush();
 }
 

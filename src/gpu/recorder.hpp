@@ -6,7 +6,7 @@
 #include <span>
 
 #include "gpu/hazards.hpp"
-#include "gpu/memory.hpp"
+#include "gpu/image.hpp"
 #include "gpu/pipeline.hpp"
 #include "gpu/timers.hpp"
 
@@ -34,7 +34,7 @@ class Pass {
   VkDeviceAddress read(const Buffer&, Access = Access::compute_read);
   VkDeviceAddress write(const Buffer&, Access = Access::compute_write);
   /// Images: declares the access; the transition follows.
-  void image(const DepthImage&, Access);
+  void image(const Image&, Access);
 
   template <class Push>
   void dispatch(const Pipeline& pipeline, const Push& push, uint32_t x, uint32_t y = 1, uint32_t z = 1) {
@@ -56,7 +56,7 @@ class Pass {
   friend class Recorder;
   Pass(Recorder&, const char* name);
   void declare(const Buffer&, const AccessInfo&);
-  void declare(const DepthImage&, const AccessInfo&);
+  void declare(const Image&, const AccessInfo&);
   void log(const SyncState&, const char* resource_name, const AccessInfo&, const Barrier&) const;
   void flush();
   void bind(const Pipeline&, const void* push, size_t size);
@@ -67,7 +67,7 @@ class Pass {
   const char* name_;
   uint32_t number_;  ///< In the hazard log.
   std::array<VkBufferMemoryBarrier2, 40> buffers_;
-  std::array<VkImageMemoryBarrier2, 2> images_;
+  std::array<VkImageMemoryBarrier2, 32> images_;
   uint32_t buffer_count_ = 0, image_count_ = 0;
 };
 
@@ -91,7 +91,7 @@ class Recorder {
   Pass pass(const char* name) { return {*this, name}; }
   const Device& device() const { return device_; }
   /// Makes contents visible to stages outside of the library.
-  void publish(std::span<const Buffer* const>, VkPipelineStageFlags2 stages, const DepthImage* image);
+  void publish(std::span<const Buffer* const>, std::span<const Image* const>, VkPipelineStageFlags2 stages);
 
  private:
   friend class Pass;

@@ -13,9 +13,11 @@ struct Table {
     out.checks.push_back({name, true, supported, purpose});
     out.supported = out.supported && supported;
   }
-  void capability(bool& flag, bool supported, std::string_view name, std::string_view purpose) {
-    out.checks.push_back({name, false, supported, purpose});
+  /// needed: by the settings.
+  void capability(bool& flag, bool supported, std::string_view name, std::string_view purpose, bool needed = false) {
+    out.checks.push_back({name, needed, supported, purpose});
     flag = supported;
+    out.supported = out.supported && (supported || !needed);
   }
 };
 
@@ -51,21 +53,38 @@ void list_features(Table& table, const Supported& has) {
 #undef UMB_NEED
 }
 
-void list_capabilities(Table& table, const Supported& has, const std::vector<VkExtensionProperties>& extensions) {
+void list_capabilities(Table& table, const Supported& has, const std::vector<VkExtensionProperties>& extensions, const StaticSettings& settings) {
   const auto offers = [&](const char* name) {
     return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
   };
   Capabilities& can = table.out.available;
   table.capability(can.geometry_shader, has.base.features.geometryShader, "geometryShader", "layered rendering, R2");
-  table.capability(can.vertex_layer, has.v12.shaderOutputLayer, "shaderOutputLayer", "layered rendering from the vertex shader");
+  table.capability(can.vertex_layer, has.v12.shaderOutputLayer, "shaderOutputLayer", "physical pool, O12; layered rendering from the vertex shader",
+                   settings.store == Store::physical_pool);
   table.capability(can.multiview, has.v11.multiview, "multiview", "layered rendering by multiview");
   table.capability(can.mesh_shader, offers("VK_EXT_mesh_shader"), "VK_EXT_mesh_shader", "layered rendering by mesh shaders");
-  table.capability(can.sparse_residency, has.base.features.sparseBinding && has.base.features.sparseResidencyImage2D,
+  table.capability(can.sparse_residency, has.base.features.sparseBinding && has.base.features.sparseResidencyImage2D &&
+                                             has.base.features.shaderStorageImageArrayDynamicIndexing &&
+                                             has.v12.shaderStorageImageArrayNonUniformIndexing,
                    "sparseResidencyImage2D", "hardware sparse store, O13");
+  table.capability(can.shader_residency, has.base.features.shaderResourceResidency, "shaderResourceResidency",
+                   "hardware sparse store: what is not bound is not written, O15");
   table.capability(can.ray_query, offers("VK_KHR_ray_query"), "VK_KHR_ray_query", "ray-traced shadows");
   table.capability(can.ray_tracing_pipeline, offers("VK_KHR_ray_tracing_pipeline"), "VK_KHR_ray_tracing_pipeline", "ray-traced shadows");
 }
 }  // namespace
+
+namespace gpu {
+void enable_capabilities(const Capabilities& wanted, Requirements& out) {
+  VkPhysicalDeviceFeatures& base = out.features.features;
+  if (wanted.vertex_layer) out.features_12.shaderOutputLayer = VK_TRUE;
+  if (wanted.shader_residency) base.shaderResourceResidency = VK_TRUE;
+  if (wanted.sparse_residency) {
+    base.sparseBinding = base.sparseResidencyImage2D = base.shaderStorageImageArrayDynamicIndexing = VK_TRUE;
+    out.features_12.shaderStorageImageArrayNonUniformIndexing = VK_TRUE;
+  }
+}
+}  // namespace gpu
 
 const void* Requirements::chain() {
   features.pNext = &features_11;
@@ -117,7 +136,9 @@ Result<Requirements> requirements(VkInstance instance, VkPhysicalDevice physical
   table.require(device.limits.maxComputeWorkGroupInvocations >= 256, "maxComputeWorkGroupInvocations >= 256", "traversal");
   table.require(device.limits.maxClipDistances >= 4, "maxClipDistances >= 4", "views side by side in one depth image");
   table.require(device.limits.maxDrawIndirectCount >= (1u << 16), "maxDrawIndirectCount >= 65536", "one draw for all shadow casters");
-  list_capabilities(table, has, extensions);
+  list_capabilities(table, has, extensions, settings);
+  gpu::enable_capabilities(settings.store == Store::physical_pool ? Capabilities{.vertex_layer = true} : Capabilities{}, out);
+  std::stable_partition(out.checks.begin(), out.checks.end(), [](const RequirementCheck& check) { return check.required; });
   return out;
 }
 

@@ -33,7 +33,7 @@ UMB_FN DebugMap debug_map(Frame frame, Cluster cluster, uint i) {
   uint slot = light_slot(frame, cluster, i);
   LightRecord light = UmbrageLights(f.v[0].lights).v[slot];
   if (light.view_count == 0u) return debug_no_map(slot);
-  if (f.v[0].store == StoreAtlas)
+  if (store_of(frame) == StoreAtlas)
     return DebugMap(NoIndex, slot, light.first_view, light.view_count, light.resolution, 0u, light.resolution, false);
   uint index = cluster.first == NoIndex ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
   if (index == NoIndex) index = whole_map(frame, slot);
@@ -43,7 +43,7 @@ UMB_FN DebugMap debug_map(Frame frame, Cluster cluster, uint i) {
 /// A light's maps: x the first one, y how many, finest first. None with fixed cubes.
 UMB_FN uvec2 debug_light_maps(Frame frame, uint slot) {
   UmbrageFrames f = UmbrageFrames(frame.address);
-  if (f.v[0].store == StoreAtlas) return uvec2(NoIndex, 0u);
+  if (store_of(frame) == StoreAtlas) return uvec2(NoIndex, 0u);
   LightMaps maps = UmbrageLightMapList(f.v[0].light_maps).v[slot];
   return uvec2(maps.first, maps.count);
 }

@@ -22,9 +22,14 @@ UMB_FN uint find_page(Frame frame, Map map, uint view, uint page) {
 
 UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {
 #ifdef UMBRAGE_SET
-  if (UmbrageFrames(frame.address).v[0].store == StoreAtlas) {
+  if (store_of(frame) == StoreAtlas) {
     uvec2 tile = atlas_tile(map.first_view + view, UmbrageFrames(frame.address).v[0].atlas_columns, UmbrageFrames(frame.address).v[0].atlas_resolution);
     return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
+  }
+  if (store_of(frame) == StoreImages) {
+    if ((map.faces >> view & 1u) != 0u) return texelFetch(umbrage_images[nonuniformEXT(map.image)], ivec3(texel, map.layer + view), 0).x;
+    ++last.missing;
+    return 0.0f;
   }
 #endif
   uint page = (texel.y / PageSide) * map.pages + texel.x / PageSide;
@@ -75,7 +80,7 @@ UMB_FN void add_tap(Frame frame, Map map, uint view, uvec2 texel, vec3 normal, v
                     inout TapPage last, inout vec2 sum) {
   float depth = receiver_plane_depth(normal, relative, direction);
   weight *= clamp(2.0f * depth * dot(direction, direction) / dot(relative, direction), 1e-6f, 1.0f);
-  float key = min(map.near_m / (min(depth, deepest) * (1.0f - 4e-6f)), 1.0f);
+  float key = min(map.near_m / (min(depth, deepest) * (1.0f - 4e-6f)) + map.depth_step, 1.0f);
   sum += weight * vec2(stored_depth(frame, map, view, texel, last) <= key ? 1.0f : 0.0f, 1.0f);
 }
 
@@ -184,7 +189,7 @@ UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 norma
     for (int x = -1; x <= 1; ++x) {
       vec2 texel = clamp(base + vec2(x, y), vec2(0.0f), vec2(float(map.resolution - 1u)));
       vec2 st = (texel + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
-      float depth = max(clip.z + max(dot(gain, st - clip.xy), -deepest) + 1e-6f, 0.0f);   // 0: behind every caster
+      float depth = max(clip.z + max(dot(gain, st - clip.xy), -deepest) + 1e-6f + map.depth_step, 0.0f);   // 0: behind every caster
       sum += stored_depth(frame, map, 0u, uvec2(round_to_int(texel.x), round_to_int(texel.y)), last) <= depth ? tap_weight(fraction, x, y) : 0.0f;
     }
   }

@@ -1,6 +1,6 @@
 // umbrage in a shading shader: clusters, lights and visibility in one file without includes. Callable from vertex, fragment,
 // compute and ray generation shaders: no derivatives, no subgroup operations. Include it first. With the page pool
-// it needs one address and no descriptor; for fixed cubes define UMBRAGE_SET as the set number at which
+// it needs one address and no descriptor; for the other stores define UMBRAGE_SET as the set number at which
 // ShadowSystem::descriptor_set_layout() is bound.
 //
 //   Frame frame = umbrage_frame(address);                     // ShaderInterface::frame
@@ -9,6 +9,8 @@
 //     Light light = umbrage_light(frame, cluster, i);         // light.host_index finds colour and intensity
 //     radiance += … * umbrage_visibility(frame, cluster, i, position_ws, geometric_normal_ws);
 //   }
+// A system keeps its store for life: define UMBRAGE_STORE as a specialization constant that is ShadowSystem::shader_store(), and
+// the code for other stores is gone.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
@@ -35,7 +37,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer UmbrageTapCo
 #endif
 
 #ifdef UMBRAGE_SET
+#extension GL_EXT_nonuniform_qualifier : require
 layout(set = UMBRAGE_SET, binding = 0) uniform texture2D umbrage_atlas;
+layout(set = UMBRAGE_SET, binding = 1) uniform texture2DArray umbrage_images[MaxMapImages];
 #endif
 
 // --- What a host sees -----------------------------------------------------------------------------------------------
@@ -62,6 +66,14 @@ struct Light {
 };
 
 Frame umbrage_frame(uint64_t address) { return Frame(address); }
+
+UMB_FN uint store_of(Frame frame) {
+#ifdef UMBRAGE_STORE
+  return UMBRAGE_STORE;
+#else
+  return UmbrageFrames(frame.address).v[0].store;
+#endif
+}
 
 UMB_FN Cluster cluster_of_cell(Frame frame, uvec2 tile, uint slice) {
   UmbrageFrames f = UmbrageFrames(frame.address);

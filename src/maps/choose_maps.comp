@@ -23,8 +23,8 @@ struct Limits {
 };
 
 uint resolution_of_place(LightRequest request, uint place, uint shift) {
-  if (!has_flag(MapsExact)) return 1u << level_of_place(place);   // places are shifted already
-  return exact_resolution(uintBitsToFloat(request.buckets[place]) / float(1u << shift));
+  if (!has_flag(MapsExact)) return backed_resolution(1u << level_of_place(place), backing().x);   // places are shifted already
+  return exact_resolution(uintBitsToFloat(request.buckets[place]) / float(1u << shift), backing().x);
 }
 
 /// Places at which a map begins. Levels: halving moves a level to the next place, the last ones meet at the coarsest; of too
@@ -56,7 +56,9 @@ bool wants_whole(LightRecord light) {
   return has_flag(MapsAllLights) || counters.all_lights_used != 0u || counters.clusters_found > counters.clusters;
 }
 
-uint whole_resolution(LightRecord light, uint shift) { return max(min(WholeResolution, light.resolution) >> shift, 1u << MinLevel); }
+uint whole_resolution(LightRecord light, uint shift) {
+  return backed_resolution(max(min(WholeResolution, light.resolution) >> shift, 1u << MinLevel), backing().x);
+}
 
 uint light_shift(uint slot, Limits limits) {
   return min((push.round > 0u ? LightMapList(Frame(push.frame).record.light_maps).v[slot].shift : 0u) + limits.shift, MaxShift);
@@ -122,7 +124,7 @@ void write_maps(uint slot, Limits limits, inout Share at) {
       uint pages = pages_of(resolution);
       uint words = page_words_of(pages);
       Maps(frame.maps).v[at.maps] = MapRecord(slot, light.first_view, light.view_count, light.views, resolution, pages, words, at.words, at.views,
-                                              is_whole ? (1u << light.view_count) - 1u : 0u, uint(is_whole), light.light_mask);
+                                              is_whole ? (1u << light.view_count) - 1u : 0u, uint(is_whole), light.light_mask, NoIndex, 0u, resolution);
       ++at.maps;
       at.words += words * light.view_count;
       at.views += light.view_count;

@@ -50,14 +50,27 @@ void choose_shifts(uint begin, uint end) {
   }
 }
 
+/// Stores of images: halvings, begun ones too, of the map whose image falls shortest of what it asked for.
+uint halvings_of_images(LightMaps maps) {
+  uint most = 0u;
+  for (uint m = maps.first; m < maps.first + maps.count; ++m) {
+    MapRecord map = Maps(Frame(push.frame).record.maps).v[m];
+    uint halvings = 0u;
+    while (map.asked > map.resolution << halvings) ++halvings;
+    most = max(most, halvings);
+  }
+  return most;
+}
+
 /// For the statistics.
 void report_shifts(uint begin, uint end) {
   uint shifted = 0u;
   for (uint i = begin; i < end; ++i) {
     uint slot = Uints(push.priority).v[i];
     LightMaps maps = LightMapList(Frame(push.frame).record.light_maps).v[slot];
-    if (maps.shift == 0u || maps.count == 0u) continue;
-    Uints(push.used).v[slot] |= maps.shift << LightShiftAt;
+    uint shift = maps.shift + halvings_of_images(maps);
+    if (shift == 0u || maps.count == 0u) continue;
+    Uints(push.used).v[slot] |= shift << LightShiftAt;
     ++shifted;
   }
   if (shifted > 0u) atomicAdd(Counters(push.counters).counters.lights_shifted, shifted);
@@ -73,7 +86,7 @@ void main() {
   if (thread == 0u) {
     if (push.round == 0u) {
       Counters(push.counters).counters.pages_requested = pages;
-      Counters(push.counters).counters.pool_units_asked = units;
+      if (!has_flag(MapsWholeImages)) Counters(push.counters).counters.pool_units_asked = units;
     }
     if (fits) {
       uvec3 groups = groups_for((units + ClearUnits - 1u) / ClearUnits);

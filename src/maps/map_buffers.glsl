@@ -14,5 +14,7 @@ uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroup
 uint global_index(uint threads) { return group_index() * threads + gl_LocalInvocationIndex; }
 
 bool has_flag(uint flag) { return (push.flags & flag) != 0u; }
+/// Texels along the sides of what the store backs at once.
+uvec2 backing() { return uvec2(push.backing & 0xffffu, push.backing >> 16u); }
 /// The number of a record's cluster/light pairs that have a place.
 uint pair_count() { return min(Counters(push.counters).counters.pairs_found, Frame(push.frame).record.pair_capacity); }

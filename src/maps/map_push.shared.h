@@ -33,6 +33,8 @@ UMB_CONST uint MapsPaperResolution = 2u;
 UMB_CONST uint MapsLinearBuckets = 4u;
 UMB_CONST uint MapsDropFacingAway = 8u;
 UMB_CONST uint MapsAllLights = 16u;     // every light gets a map of whole views
+UMB_CONST uint MapsWholeImages = 32u;   // the store backs whole images: place_maps has counted them
+UMB_CONST uint MapsSparse = 64u;        // the store backs blocks of `backing` texels, and maps below a page beforehand
 
 /// Resolution of the maps that answer for points no depth buffer saw.
 UMB_CONST uint WholeResolution = 128u;
@@ -60,9 +62,21 @@ struct MapsPush {
   float undersampling;     // divides R
   uint min_resolution;
   uint max_resolution;
-  uint pad;
+  uint backing;            // texels that are backed at once: width | height << 16
 };
 UMB_ASSERT_SIZE(MapsPush, 120);
+
+struct PlaceMapsPush {     // place_maps
+  uint64_t frame;
+  uint64_t counters;
+  uint64_t priority;       // slots, the most important first
+  uint64_t images;         // MapImage, finest first
+  uint image_count;
+  uint light_count;        // in `priority`
+  uint whole_images;       // 1: a map is as fine as its image; 0: no finer
+  uint pad;
+};
+UMB_ASSERT_SIZE(PlaceMapsPush, 48);
 
 UMB_NAMESPACE_END
 #endif

@@ -31,8 +31,22 @@ struct MapRecord {
   uint faces;              // bit v: view v has receivers (the map's cube-face mask)
   uint whole;              // 1: every page is marked and nothing is known of the receivers
   uint light_mask;
+  uint image;              // stores of images: which, and the layer of the first view; NoIndex: none yet
+  uint layer;
+  uint asked;              // resolution asked for; more than `resolution` where images are short
 };
-UMB_ASSERT_SIZE(MapRecord, 48);
+UMB_ASSERT_SIZE(MapRecord, 60);
+
+/// Images that a store keeps maps in, at most.
+UMB_CONST uint MaxMapImages = 24u;
+
+/// An array of square depth images. A map takes as many layers, one after the other, as it has views.
+struct MapImage {
+  uint side;               // texels
+  uint layers;
+  uint first_layer;        // among the layers of all images
+};
+UMB_ASSERT_SIZE(MapImage, 12);
 
 /// The maps of a light: first … first + count-1, finest first; `whole` is one of them or NoIndex.
 struct LightMaps {

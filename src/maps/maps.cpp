@@ -17,14 +17,20 @@ constexpr uint32_t kBucket[] =
 constexpr uint32_t kChoose[] =
 #include "shaders/choose_maps.comp.inc"
     ;
+constexpr uint32_t kPlace[] =
+#include "shaders/place_maps.comp.inc"
+    ;
 constexpr uint32_t kClear[] =
 #include "shaders/clear_marks.comp.inc"
     ;
 constexpr uint32_t kMark[] =
 #include "shaders/mark_pages.comp.inc"
     ;
-constexpr uint32_t kCount[] =
+constexpr uint32_t kCountPages[] =
 #include "shaders/count_pages.comp.inc"
+    ;
+constexpr uint32_t kCountBlocks[] =
+#include "shaders/count_blocks.comp.inc"
     ;
 constexpr uint32_t kEstimate[] =
 #include "shaders/estimate_demand.comp.inc"
@@ -38,7 +44,8 @@ Result<Maps> Maps::create(const gpu::PipelineFactory& factory) {
   Maps out;
   const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
       {out.request_, kRequest, "request resolutions"}, {out.bucket_, kBucket, "bucket requests"}, {out.choose_, kChoose, "choose maps"},
-      {out.clear_, kClear, "clear marks"}, {out.mark_, kMark, "mark pages"}, {out.count_, kCount, "count pages"},
+      {out.place_, kPlace, "place maps"}, {out.clear_, kClear, "clear marks"}, {out.mark_, kMark, "mark pages"},
+      {out.count_pages_, kCountPages, "count pages"}, {out.count_blocks_, kCountBlocks, "count blocks"},
       {out.estimate_, kEstimate, "estimate demand"}, {out.fit_, kFit, "fit budget"}};
   for (const auto& entry : all) {
     auto made = factory.compute(entry.spirv, entry.name);
@@ -87,19 +94,23 @@ shared::MapsPush Maps::push(const Inputs& in) const {
   if (settings.buckets == HistogramBuckets::linear) flags |= shared::MapsLinearBuckets;
   if (settings.facing_away == FacingAway::dropped) flags |= shared::MapsDropFacingAway;
   if (in.all_lights) flags |= shared::MapsAllLights;
+  if (in.backing.whole_images) flags |= shared::MapsWholeImages;
+  if (in.backing.images && !in.backing.whole_images) flags |= shared::MapsSparse;
   return {.frame = in.frame.address(), .counters = in.counters.address(), .requests = requests_.address(), .pair_requests = pair_requests_.address(),
           .pair_clusters = in.clusters.pair_clusters().address(), .used = in.clusters.used_lights().address(), .demand = demand_.address(),
           .priority = in.scene.light_order_buffer().address(), .views = in.views.address(), .flags = flags, .maps_per_light = settings.maps_per_light,
-          .round = 0, .light_slots = in.scene.light_slots(), .capacity_units = in.capacity_units, .word_capacity = sizes_.words,
-          .receiver_capacity = sizes_.receiver_views, .light_count = in.scene.light_count(), .undersampling = float(settings.undersampling),
+          .round = 0, .light_slots = in.scene.light_slots(), .capacity_units = in.backing.capacity_units, .word_capacity = sizes_.words,
+          .receiver_capacity = std::min(sizes_.receiver_views, in.backing.most_views), .light_count = in.scene.light_count(), .undersampling = float(settings.undersampling),
           .min_resolution = settings.layout == MapLayout::levels ? std::max(settings.min_resolution, std::min(settings.merge_below, settings.max_resolution))
-                                                                  : settings.min_resolution, .max_resolution = settings.max_resolution};
+                                                                  : settings.min_resolution, .max_resolution = settings.max_resolution,
+          .backing = in.backing.block.x | in.backing.block.y << 16};
 }
 
 void Maps::record(gpu::Recorder& recorder, const Inputs& in) {
   if (in.scene.light_slots() == 0) return;
   request(recorder, in);
-  for (uint32_t round = 0; round < kRounds; ++round) fit(recorder, in, round);
+  // Whole images are placed at once, and all of them have a place.
+  for (uint32_t round = 0; round < (in.backing.whole_images ? 1 : kRounds); ++round) fit(recorder, in, round);
 }
 
 void Maps::request(gpu::Recorder& recorder, const Inputs& in) {
@@ -142,6 +153,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
     pass.write(in.counters), pass.write(light_maps_), pass.write(maps_);
     pass.dispatch(choose_, push, 1);
   }
+  if (in.backing.images) place(recorder, in);
   {
     gpu::Scope scope(recorder, "mark pages");
     {
@@ -158,22 +170,40 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
     pass.dispatch_indirect(mark_, push, in.counters, offsetof(shared::FrameCounters, fit_pair_groups));
   }
   gpu::Scope scope(recorder, "fit budget");
-  {
-    gpu::Pass pass = recorder.pass("count pages");
-    pass.read(in.frame), pass.read(maps_), pass.read(page_bits_), pass.read(in.counters, gpu::Access::indirect_read);
-    pass.write(in.counters), pass.write(page_first_);
-    pass.dispatch_indirect(count_, push, in.counters, offsetof(shared::FrameCounters, fit_word_groups));
-  }
-  if (round == 0) {
+  if (!in.backing.whole_images) count(recorder, in, push);
+  if (round == 0 && !in.backing.whole_images) {
     gpu::Pass pass = recorder.pass("estimate demand");
     pass.read(in.frame), pass.read(maps_), pass.read(page_bits_), pass.read(in.counters), pass.read(in.counters, gpu::Access::indirect_read);
     pass.write(demand_);
     pass.dispatch_indirect(estimate_, push, in.counters, offsetof(shared::FrameCounters, fit_map_groups));
   }
   gpu::Pass pass = recorder.pass("fit budget");
-  pass.read(in.frame), pass.read(demand_), pass.read(in.scene.light_order_buffer());
+  pass.read(in.frame), pass.read(maps_), pass.read(demand_), pass.read(in.scene.light_order_buffer());
   pass.write(in.counters), pass.write(light_maps_), pass.write(in.clusters.used_lights());
   pass.dispatch(fit_, push, 1);
+}
+
+void Maps::place(gpu::Recorder& recorder, const Inputs& in) {
+  gpu::Scope scope(recorder, "place maps");
+  gpu::Pass pass = recorder.pass("place maps");
+  const shared::PlaceMapsPush push{.frame = pass.read(in.frame), .counters = pass.write(in.counters),
+                                   .priority = pass.read(in.scene.light_order_buffer()), .images = in.backing.images,
+                                   .image_count = in.backing.image_count, .light_count = in.scene.light_count(),
+                                   .whole_images = in.backing.whole_images};
+  pass.read(light_maps_), pass.write(maps_);
+  pass.dispatch(place_, push, 1);
+}
+
+void Maps::count(gpu::Recorder& recorder, const Inputs& in, const shared::MapsPush& push) {
+  gpu::Pass pass = recorder.pass("count pages");
+  pass.read(in.frame), pass.read(maps_), pass.read(page_bits_), pass.read(in.counters, gpu::Access::indirect_read);
+  pass.write(in.counters);
+  if (in.backing.images) {
+    pass.dispatch_indirect(count_blocks_, push, in.counters, offsetof(shared::FrameCounters, fit_map_groups));
+    return;
+  }
+  pass.write(page_first_);
+  pass.dispatch_indirect(count_pages_, push, in.counters, offsetof(shared::FrameCounters, fit_word_groups));
 }
 
 }  // namespace umbrage::maps

@@ -1,6 +1,8 @@
 // Virtual shadow maps (Olsson et al. 2014, sections 3 and 4): how fine each light's maps are, which of their pages anyone
 // will look at, and how both give way when the pool is short.
 #pragma once
+#include <array>
+
 #include "maps/views.hpp"
 
 namespace umbrage::maps {
@@ -18,6 +20,16 @@ class Maps {
   Result<void> reserve(const gpu::Device&, gpu::Memory&, const Sizes&, std::vector<gpu::Buffer>& retired);
   void fill(shared::FrameRecord&) const;
 
+  /// How the store backs maps.
+  struct Backing {
+    glm::uvec2 block{shared::PageSide, shared::PageSide};  ///< Texels that it backs at once; resolutions are multiples of the width.
+    uint32_t capacity_units = 0;         ///< Of what it can back; units of PoolUnit texels.
+    VkDeviceAddress images = 0;          ///< shared::MapImage in `frame`, where maps lie in images.
+    uint32_t image_count = 0;
+    uint32_t most_views = UINT32_MAX;    ///< That find a layer, however they are spread.
+    bool whole_images = false;           ///< Not in blocks: a map has all of its layers.
+  };
+
   struct Inputs {
     const scene::GpuScene& scene;
     const clusters::Clusters& clusters;
@@ -25,10 +37,11 @@ class Maps {
     const gpu::Buffer& counters;
     const gpu::Buffer& views;
     const FrameSettings& settings;
-    uint32_t capacity_units;      ///< Of the pool.
+    Backing backing;
     bool all_lights;
   };
-  /// What is asked for → maps, marked pages and receivers, with pages_of_words() counted in pool units; all of it fits.
+  /// What is asked for → maps with their images, marked pages and receivers, with page_first() counted in pool units (page pool);
+  /// all of it fits.
   void record(gpu::Recorder&, const Inputs&);
 
   const gpu::Buffer& maps() const { return maps_; }
@@ -40,6 +53,7 @@ class Maps {
   /// Bits of the resolution that each cluster/light pair asked for; 0: it faces away.
   const gpu::Buffer& pair_requests() const { return pair_requests_; }
   const Sizes& sizes() const { return sizes_; }
+  const gpu::Buffer& light_maps() const { return light_maps_; }
   /// What a lookup reads.
   std::array<const gpu::Buffer*, 5> published() const { return {&maps_, &light_maps_, &pair_maps_, &page_bits_, &page_first_}; }
 
@@ -49,9 +63,11 @@ class Maps {
   shared::MapsPush push(const Inputs&) const;
   void request(gpu::Recorder&, const Inputs&);
   void fit(gpu::Recorder&, const Inputs&, uint32_t round);
+  void place(gpu::Recorder&, const Inputs&);
+  void count(gpu::Recorder&, const Inputs&, const shared::MapsPush&);
 
   Sizes sizes_;
-  gpu::Pipeline request_, bucket_, choose_, clear_, mark_, count_, estimate_, fit_;
+  gpu::Pipeline request_, bucket_, choose_, place_, clear_, mark_, count_pages_, count_blocks_, estimate_, fit_;
   gpu::Buffer maps_, light_maps_, requests_, demand_, pair_requests_, pair_maps_, page_bits_, page_first_, projection_, receiver_depth_;
 };
 

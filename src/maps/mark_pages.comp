@@ -10,6 +10,7 @@ void set_bits(uint64_t words, uint word, uint bits) {
 }
 
 void mark_rows(FrameRecord frame, MapRecord map, uint view, ViewFootprint seen) {
+  if (map.pages == 0u) return;   // the store backs whole maps
   TileRect pages = tile_rect(seen.rect, map.pages);
   for (uint y = pages.begin.y; y < pages.end.y; ++y) {
     uvec2 span = footprint_row(seen, y, map.pages);

@@ -26,10 +26,13 @@ UMB_FN uint level_of_resolution(float resolution) {
   return max(floor_to_uint(level, MaxLevel), MinLevel);
 }
 
-/// The paper's R as the exact layout allocates it: whole pages, or below one page a power of two.
-UMB_FN uint exact_resolution(float resolution) {
+/// Whole blocks of what the store backs at once (O13); smaller maps than a page stay as they are.
+UMB_FN uint backed_resolution(uint texels, uint block) { return texels >= PageSide ? (texels + block - 1u) / block * block : texels; }
+
+/// The paper's R as the exact layout allocates it: whole blocks, or below one page a power of two.
+UMB_FN uint exact_resolution(float resolution, uint block) {
   uint texels = max(floor_to_uint(ceil(resolution), 1u << MaxLevel), 1u);
-  if (texels >= PageSide) return pages_of(texels) * PageSide;
+  if (texels >= PageSide) return backed_resolution(texels, block);
   uint side = 1u << MinLevel;
   while (side < texels) side *= 2u;
   return side;

@@ -28,7 +28,7 @@ void main() {
   gl_ClipDistance[1] = clip.w + clip.x;
   gl_ClipDistance[2] = clip.w - clip.y;
   gl_ClipDistance[3] = clip.w + clip.y;
-  clip.xy = (clip.xy * tile.x + clip.w * (2.0 * tile.yz + tile.x)) / push.atlas_size - clip.w;
+  clip.xy = (clip.xy * tile.x + clip.w * (2.0 * tile.yz + tile.x)) / push.viewport_size - clip.w;
   gl_Position = clip;
 
   uv = vec2(0.0);

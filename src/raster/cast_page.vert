@@ -1,46 +1,17 @@
 #version 460
-// A caster's vertex into a view of the page pool. Every map begins at the viewport's corner; clip distances cut a texel beyond its
-// side, the fragment shader at it.
+// A caster's vertex into a view whose texels fragments find themselves: through the page table, or in an image.
 #extension GL_GOOGLE_include_directive : require
 #include "scene/scene_buffers.glsl"
 #include "raster/raster_types.shared.h"
 layout(push_constant, scalar) uniform PushBlock { CastPagePush push; };
 layout(constant_id = 0) const bool masked = false;
-
-layout(location = 0) in vec4 row0;
-layout(location = 1) in vec4 row1;
-layout(location = 2) in vec4 row2;
-layout(location = 3) in vec4 x_row;
-layout(location = 4) in vec4 y_row;
-layout(location = 5) in vec4 z_row;
-layout(location = 6) in vec4 w_row;
-layout(location = 7) in uvec4 geometry;             // positions, their stride, batch
-layout(location = 8) in uvec4 texture_coordinates;  // address, stride; first word of the page bits
+#include "raster/cast_view.glsl"
 
 layout(location = 0) out vec2 uv;
-layout(location = 1) flat out uvec3 place;          // batch, first word, resolution
-out float gl_ClipDistance[4];
+layout(location = 1) flat out uvec4 place;          // batch, first word, resolution, layer
 
 void main() {
-  Floats positions = Floats(packUint2x32(geometry.xy));
-  uint at = gl_VertexIndex * geometry.z;
-  vec3 p = vec3(positions.v[at], positions.v[at + 1], positions.v[at + 2]);
-  precise vec3 r = vec3(dot(row0.xyz, p), dot(row1.xyz, p), dot(row2.xyz, p)) + vec3(row0.w, row1.w, row2.w);
-  vec4 clip = vec4(dot(x_row.xyz, r), dot(y_row.xyz, r), dot(z_row.xyz, r) + z_row.w, dot(w_row.xyz, r) + w_row.w);
-  float resolution = x_row.w;
-  float side = clip.w * (1.0 + 2.0 / resolution);
-  gl_ClipDistance[0] = side - clip.x;
-  gl_ClipDistance[1] = side + clip.x;
-  gl_ClipDistance[2] = side - clip.y;
-  gl_ClipDistance[3] = side + clip.y;
-  clip.xy = (clip.xy + clip.w) * (resolution / push.viewport_size) - clip.w;
-  gl_Position = clip;
-
-  place = uvec3(geometry.w, texture_coordinates.w, uint(resolution));
-  uv = vec2(0.0);
-  if (masked) {
-    Floats uvs = Floats(packUint2x32(texture_coordinates.xy));
-    uint uv_at = gl_VertexIndex * texture_coordinates.z;
-    uv = vec2(uvs.v[uv_at], uvs.v[uv_at + 1]);
-  }
+  gl_Position = clip_position_of_vertex(push.viewport_size);
+  place = uvec4(geometry.w, texture_coordinates.w, uint(x_row.w), uint(y_row.w));
+  uv = masked ? uv_of_vertex() : vec2(0.0);
 }

@@ -40,7 +40,7 @@ Result<PageFragments> PageFragments::create(const gpu::PipelineFactory& factory)
                                     .fragment = kWriteFragment,
                                     .instance_attributes = kAttributes,
                                     .instance_stride_bytes = sizeof(shared::PageInstance),
-                                    .has_attachment = false};
+                                    .attachment = VK_FORMAT_UNDEFINED};
     auto made = factory.depth(shaders, masked ? "cast into pages, masked" : "cast into pages", {{0, masked}});
     if (!made) return made.error();
     out.cast_[masked] = std::move(*made);

@@ -6,9 +6,9 @@
 
 UMB_NAMESPACE_BEGIN
 
-struct CastPush {            // cast.vert, mask.frag
+struct CastPush {            // cast.vert, cast_layer.vert, mask.frag
   uint64_t batches;
-  vec2 atlas_size;           // texels; what the viewport covers
+  vec2 viewport_size;        // texels: of the atlas, or of an image
 };
 UMB_ASSERT_SIZE(CastPush, 16);
 
@@ -95,7 +95,7 @@ UMB_CONST uint DrawWindow = 16384u;
 struct PageInstance {
   vec4 row0, row1, row2;     // relative to the view's origin from mesh space
   vec4 x_row;                // of the view; resolution
-  vec4 y_row;                // of the view; unused
+  vec4 y_row;                // of the view; layer, where maps lie in images
   vec4 z_row, w_row;         // of the view, with their offsets
   uint64_t positions;
   uint position_stride;      // in floats
@@ -129,6 +129,41 @@ struct CastPagePush {        // cast_page.vert, write_page.frag
   vec2 viewport_size;        // texels
 };
 UMB_ASSERT_SIZE(CastPagePush, 24);
+
+// --- Into images ------------------------------------------------------------------------------------------------------
+
+/// VkDrawIndirectCommand.
+struct ClearCommand {
+  uint vertex_count;
+  uint instance_count;
+  uint first_vertex;
+  uint first_instance;
+};
+UMB_ASSERT_SIZE(ClearCommand, 16);
+
+struct ListLayersPush {      // list_layer_draws; of list_layer_clears what is marked *
+  uint64_t frame;            // *
+  uint64_t casters;
+  uint64_t instances;
+  uint64_t batches;
+  uint64_t items;
+  uint64_t counts_of_items;
+  uint64_t drawn;            // PageInstance, six for each item
+  uint64_t commands;         // * ClearCommand an image; draws: item_capacity DrawCommands for each list of counts
+  uint64_t counts;           // * commands of each image; draws: opaque ones of each image, then masked ones
+  uint64_t images;           // * MapImage
+  uint64_t layers;           // * layer | resolution << 16 of the layers to clear, image by image
+  uint item_capacity;        // masked items begin there
+  uint image_count;
+};
+UMB_ASSERT_SIZE(ListLayersPush, 96);
+
+struct ClearLayersPush {     // clear_layers.vert
+  uint64_t layers;
+  float image_side;
+  uint pad;
+};
+UMB_ASSERT_SIZE(ClearLayersPush, 16);
 
 UMB_NAMESPACE_END
 #endif

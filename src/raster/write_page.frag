@@ -7,7 +7,7 @@ layout(push_constant, scalar) uniform PushBlock { CastPagePush push; };
 layout(constant_id = 0) const bool masked = false;
 layout(set = 1, binding = 0) uniform sampler2D masks[];
 layout(location = 0) in vec2 uv;
-layout(location = 1) flat in uvec3 place;           // batch, first word, resolution
+layout(location = 1) flat in uvec4 place;           // batch, first word, resolution, unused
 
 void main() {
   bool cut_out = false;

@@ -17,7 +17,7 @@ constexpr uint32_t kMaskFragment[] =
 
 /// Begins rendering into a rectangle of the atlas. The viewport is always the whole: coordinates round alike, so that both
 /// writers make the same bits.
-void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::DepthImage& atlas, const VkRect2D& area, bool clear) {
+void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::Image& atlas, const VkRect2D& area, bool clear) {
   VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   depth.imageView = atlas.view();
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
@@ -41,9 +41,9 @@ shared::CastPush declare(gpu::Pass& pass, const Writers::Inputs& in) {
   pass.read(in.culling.instances(), vertex_attribute_read);
   pass.read(in.culling.commands(), indirect_read);
   pass.read(in.culling.draw_counts(), indirect_read);
-  const gpu::DepthImage& atlas = in.store.atlas();
+  const gpu::Image& atlas = in.store.atlas();
   pass.image(atlas, depth_attachment);
-  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read), .atlas_size = {atlas.width(), atlas.height()}};
+  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read), .viewport_size = {atlas.width(), atlas.height()}};
 }
 
 void bind_geometry(const gpu::Functions& vk, VkCommandBuffer commands, const Writers::Inputs& in) {
@@ -71,7 +71,7 @@ Result<Writers> Writers::create(const gpu::PipelineFactory& factory) {
 }
 
 void Writers::record_multi_draw(gpu::Recorder& recorder, const Inputs& in, uint32_t rounds) const {
-  const gpu::DepthImage& atlas = in.store.atlas();
+  const gpu::Image& atlas = in.store.atlas();
   const VkRect2D whole{{0, 0}, {atlas.width(), atlas.height()}};
   const gpu::Functions& vk = recorder.device().vk();
   const uint32_t capacity = in.culling.capacity();

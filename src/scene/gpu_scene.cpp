@@ -212,8 +212,8 @@ void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, 
     // Written once, so this makes them visible for good.
     constexpr size_t kAtOnce = 24;
     for (std::span<const gpu::Buffer* const> rest = new_geometry_; !rest.empty(); rest = rest.subspan(std::min(kAtOnce, rest.size())))
-      recorder.publish(rest.first(std::min(kAtOnce, rest.size())),
-                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, nullptr);
+      recorder.publish(rest.first(std::min(kAtOnce, rest.size())), {},
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT);
   }
   {
     gpu::Scope scope(recorder, "batch bounds");

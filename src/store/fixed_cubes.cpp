@@ -80,7 +80,7 @@ Result<void> FixedCubes::reserve(const gpu::Device& device, gpu::Memory& memory,
                                  gpu::RetireQueue& retired, uint64_t serial) {
   const uint32_t width = layout.columns * layout.resolution, height = layout.rows * layout.resolution;
   if (!atlas_ || atlas_.width() != width || atlas_.height() != height) {
-    auto made = gpu::DepthImage::create(device, memory, width, height, "shadow atlas");
+    auto made = gpu::Image::create(device, memory, {.width = width, .height = height}, "shadow atlas");
     if (!made) return made.error();
     if (atlas_) retired.retire(std::move(atlas_), serial);
     atlas_ = std::move(*made);

@@ -24,13 +24,13 @@ class FixedCubes {
   /// An image for a layout; the former one is retired.
   Result<void> reserve(const gpu::Device&, gpu::Memory&, const AtlasLayout&, gpu::RetireQueue&, uint64_t serial);
   void fill(shared::FrameRecord&) const;
-  const gpu::DepthImage& atlas() const { return atlas_; }
+  const gpu::Image& atlas() const { return atlas_; }
   const AtlasLayout& layout() const { return layout_; }
   uint64_t texels() const { return uint64_t(atlas_.width()) * atlas_.height(); }
 
  private:
   AtlasLayout layout_;
-  gpu::DepthImage atlas_;
+  gpu::Image atlas_;
 };
 
 }  // namespace umbrage::store

@@ -17,7 +17,12 @@ constexpr uint64_t kUnitsPerView = 2;
 constexpr uint32_t kFinest = 1u << shared::MaxLevel;
 }  // namespace
 
-uint32_t number_views(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, std::vector<uint32_t>& changed, std::vector<LightStatus>& without) {
+LeastRoom least_room_of_pool(uint64_t budget_bytes) {
+  constexpr uint64_t kBytes = kUnitsPerView * kUnitBytes;
+  return {budget_bytes / kBytes, kBytes};
+}
+
+uint32_t number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, std::vector<uint32_t>& changed, std::vector<LightStatus>& without) {
   without.clear();
   const auto views_of = [&](uint32_t slot) { return lights.at(slot).record.views == shared::ViewsCube ? shared::CubeFaceCount : 1u; };
   std::vector<uint32_t> casting;
@@ -29,11 +34,11 @@ uint32_t number_views(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, s
   }
   std::vector<bool> has_map(lights.slots(), false);
   std::stable_sort(casting.begin(), casting.end(), [&](uint32_t a, uint32_t b) { return lights.at(a).desc.priority > lights.at(b).desc.priority; });
-  while (views * kUnitsPerView * kUnitBytes > budget_bytes) {
+  while (views > room.views) {
     const uint32_t slot = casting.back();
     casting.pop_back();
     views -= views_of(slot);
-    without.push_back({LightId{lights.id_at(slot)}, Degradation::no_map, views_of(slot) * kUnitsPerView * kUnitBytes});
+    without.push_back({LightId{lights.id_at(slot)}, Degradation::no_map, views_of(slot) * room.bytes_per_view});
   }
   for (const uint32_t slot : casting) has_map[slot] = true;
   uint32_t next = 0;

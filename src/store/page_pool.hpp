@@ -7,9 +7,16 @@
 
 namespace umbrage::store {
 
+/// What a store has room for at least: so many views at the coarsest.
+struct LeastRoom {
+  uint64_t views = 0;
+  uint64_t bytes_per_view = 0;
+};
+LeastRoom least_room_of_pool(uint64_t budget_bytes);
+
 /// Numbers the views of lights that cast shadows. When not even the coarsest maps of all fit, lights go without by priority,
 /// then by slot (`without`). `changed`: slots whose records changed. Returns how many views there are.
-uint32_t number_views(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, std::vector<uint32_t>& changed, std::vector<LightStatus>& without);
+uint32_t number_views(IdPool<scene::HostLight>& lights, const LeastRoom&, std::vector<uint32_t>& changed, std::vector<LightStatus>& without);
 
 class PagePool {
  public:

@@ -115,7 +115,8 @@ Gpu::Gpu() {
     static_cast<Gpu*>(user)->messages_.emplace_back(text);
   };
   owner_ = std::make_unique<HeadlessDevice>(take(HeadlessDevice::create(
-      {.get_instance_proc_addr = vkGetInstanceProcAddr, .validate = true, .message = collect, .message_user = this})));
+      {.get_instance_proc_addr = vkGetInstanceProcAddr, .validate = true, .message = collect, .message_user = this,
+       .wanted = {.vertex_layer = true, .sparse_residency = true, .shader_residency = true}})));
   // Stays loaded, so that the leak checker knows the layers' own leaks by name (tests/lsan.supp).
   dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
   desc_ = owner_->desc();

@@ -61,7 +61,7 @@ size_t differences(const Pairs& a, const Pairs& b) {
 }
 
 PairRig::PairRig(Gpu& gpu, StaticSettings settings, const SeenScene& seen)
-    : SystemRig(gpu, settings, Store::page_pool), samples_(upload_samples(gpu, seen.seen)), program_(make_program(*this)) {
+    : SystemRig(gpu, settings, settings.store), samples_(upload_samples(gpu, seen.seen)), program_(make_program(*this)) {
   add(seen.scene);
   show(seen.camera, seen.seen);
 }

@@ -87,7 +87,7 @@ void SystemRig::frame(const FrameSettings& settings, const std::function<void(Vk
 }
 
 Atlas SystemRig::atlas() {
-  const gpu::DepthImage& image = stages().store.atlas();
+  const gpu::Image& image = stages().store.atlas();
   Atlas out{image.width(), image.height(), {}};
   const size_t texels = size_t(out.width) * out.height;
   const gpu::Buffer target = gpu_.buffer(texels * sizeof(float), gpu::MemoryKind::device, "atlas texels");

@@ -63,9 +63,10 @@ TEST(HazardChecker, SeesLayouts) {
 }
 
 /// Log of some frames in which everything happens: buffers grow, lists overflow, things move and go, writers change.
-HazardLog eventful_frames(Gpu& gpu) {
+HazardLog eventful_frames(Gpu& gpu, Store store) {
   HazardLog log;
-  SystemRig rig(gpu, {.budget_mib = 16, .max_cluster_light_pairs = 1024, .max_caster_pairs = 1024});
+  SystemRig rig(gpu, {.budget_mib = 16, .max_cluster_light_pairs = 1024, .max_caster_pairs = 1024}, store);
+  const Writer other = store == Store::fixed_cubes ? Writer::traditional : Writer::automatic;
   rig.state().hazard_log = &log;
   const CameraDesc camera = perspective_camera({0, 5, 16}, {0, 1, 0}, 96, 64);
   rig.show(camera, picture(camera, balls_on_ground));
@@ -81,8 +82,8 @@ HazardLog eventful_frames(Gpu& gpu) {
   const Affine there = random_affine(1, {0, 2, 0});
   for (uint32_t i = 1; i < 20; i += 3) take(rig.system().set_transforms({&rig.instance_ids[i == 13 ? 14 : i], 1}, {&there, 1}));
   rig.frame({.light_assignment = LightAssignment::brute_force, .caster_culling = CasterCulling::light_volume, .max_resolution = 32});
-  rig.frame({.writer = Writer::traditional, .max_resolution = 32});
-  rig.frame({.writer = Writer::traditional, .max_resolution = 16});
+  rig.frame({.writer = other, .max_resolution = 32});
+  rig.frame({.writer = other, .max_resolution = 16});
   FrameDesc other_stages = rig.describe(small);
   other_stages.consumer_stages = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
   take(rig.system().begin_frame(other_stages));
@@ -93,13 +94,12 @@ HazardLog eventful_frames(Gpu& gpu) {
   for (const LightId light : rig.light_ids)
     if (light.value != rig.light_ids[4].value) take(rig.system().remove(light));
   rig.frame(small);
-  rig.frame({.writer = Writer::traditional, .max_resolution = 32});
+  rig.frame({.writer = other, .max_resolution = 32});
   rig.state().hazard_log = nullptr;
   return log;
 }
 
-TEST_F(Hazards, AreNotThereAndNoBarrierIsTooMany) {
-  const HazardLog log = eventful_frames(gpu());
+void expect_just_enough_barriers(const HazardLog& log) {
   for (const gpu::Hazard& hazard : gpu::find_hazards(log)) ADD_FAILURE() << hazard.text;
 
   std::map<uint64_t, HazardLog> by_resource;   // a barrier orders accesses of its own resource only
@@ -119,6 +119,10 @@ TEST_F(Hazards, AreNotThereAndNoBarrierIsTooMany) {
   EXPECT_GT(barriers, 1000u);
   EXPECT_GT(by_resource.size(), 50u);
 }
+
+TEST_F(Hazards, AreNotThereAndNoBarrierIsTooManyInFixedCubes) { expect_just_enough_barriers(eventful_frames(gpu(), Store::fixed_cubes)); }
+TEST_F(Hazards, AreNotThereAndNoBarrierIsTooManyInThePagePool) { expect_just_enough_barriers(eventful_frames(gpu(), Store::page_pool)); }
+TEST_F(Hazards, AreNotThereAndNoBarrierIsTooManyInThePhysicalPool) { expect_just_enough_barriers(eventful_frames(gpu(), Store::physical_pool)); }
 
 }  // namespace
 }  // namespace umbrage::test
