@@ -8,6 +8,7 @@
 #include "commands/bench.hpp"
 #include "commands/compare.hpp"
 #include "commands/info.hpp"
+#include "commands/layered.hpp"
 #include "commands/output.hpp"
 #include "commands/render.hpp"
 
@@ -43,6 +44,9 @@ int run(int argc, char** argv, app::Outputs& outputs) {
   app::BenchOptions bench_options;
   CLI::App* bench = program.add_subcommand("bench", "Measure; writes results, figures and a report");
   app::add_bench_options(*bench, bench_options);
+  app::LayeredOptions layered_options;
+  CLI::App* layered = program.add_subcommand("layered", "Many views in one pass: cube maps, cascades, reflections, …");
+  app::add_layered_options(*layered, layered_options);
   app::InfoOptions info_options;
   CLI::App* info = program.add_subcommand("info", "Devices, what each can do and which presets it can run");
   app::add_info_options(*info, info_options);
@@ -64,8 +68,10 @@ int run(int argc, char** argv, app::Outputs& outputs) {
     result = app::run_compare(compare_options, outputs);
   else if (bench->parsed())
     result = app::run_bench(bench_options, outputs);
+  else if (layered->parsed())
+    result = app::run_layered(layered_options, outputs);
   else
-    result = app::run_info(info_options);
+    result = app::run_info(info_options, outputs);
   return result ? kDone : report(result.error().message, kFailed);
 }
 

@@ -4,14 +4,18 @@
 #include <string>
 
 #include "commands/output.hpp"
+#include "commands/progress.hpp"
 #include "commands/stats_json.hpp"
 #include "commands/vulkan_devices.hpp"
+#include "layered/layered_recommendation.hpp"
 #include "umbrage/settings.hpp"
 
 namespace app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kRecommended = "umbrage-layered.json";
 
 std::string needs_text(const PresetEntry& entry) {
   return entry.needs.empty() ? "the required features" : "the required features and " + entry.needs;
@@ -92,9 +96,30 @@ std::string device_text(const DeviceEntry& device, size_t index) {
 void add_info_options(CLI::App& command, InfoOptions& options) {
   command.add_flag_callback(
       "--json", [&options] { options.format = InfoFormat::json; }, "As JSON");
+  // As a flag it names the file itself.
+  auto* recommend =
+      command
+          .add_option_function<std::string>(
+              "--recommend",
+              [&options](const std::string& name) { options.recommended = name.empty() ? kRecommended : name; },
+              std::string("Measure briefly which layered writer is fastest for what, and write it; ") + kRecommended)
+          ->type_name("[FILE.json]")
+          ->expected(0, 1);
+  command.add_option("--device", options.device, "Which GPU to measure: an index of the list, or part of a name")
+      ->type_name("NAME-OR-INDEX")
+      ->needs(recommend);
 }
 
-umbrage::Result<void> run_info(const InfoOptions& options) {
+umbrage::Result<void> run_info(const InfoOptions& options, Outputs& outputs) {
+  if (!options.recommended.empty()) {
+    if (const auto checked = check_target(options.recommended); !checked) return checked;
+    Progress progress;
+    const auto found =
+        recommend_writers(options.device, [&](const std::string& step) { progress.show("measuring " + step); });
+    if (!found) return found.error();
+    progress.clear();
+    return write_text(outputs, options.recommended, to_text(*found));
+  }
   const auto list = list_devices();
   if (!list) return list.error();
   std::string text;

@@ -108,6 +108,28 @@ umbrage::LayeredTargetDesc LayerImages::target() const {
           .layers = desc_.layers};
 }
 
+void LayerImages::end_drawing(const GpuContext& context, VkCommandBuffer commands) const {
+  transition(context, commands, depth_.image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+             VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+  if (color_.image)
+    transition(context, commands, color_.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+Result<Handle<VkImageView>> LayerImages::view(const GpuContext& context, VkImageViewType type,
+                                              VkImageAspectFlags aspect) const {
+  const bool is_depth = aspect == VK_IMAGE_ASPECT_DEPTH_BIT;
+  VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+  info.image = is_depth ? depth_.image : color_.image;
+  info.viewType = type;
+  info.format = is_depth ? desc_.depth_format : desc_.color_format;
+  info.subresourceRange = {aspect, 0, 1, 0, desc_.layers};
+  VkImageView made = VK_NULL_HANDLE;
+  const VkResult result = context.vk.vkCreateImageView(context.device(), &info, nullptr, &made);
+  if (result != VK_SUCCESS) return vulkan_error("vkCreateImageView", result);
+  return Handle<VkImageView>(context.device(), made, context.vk.vkDestroyImageView);
+}
+
 Result<std::vector<std::byte>> LayerImages::read(GpuContext& context, VkImage image, VkImageAspectFlags aspect,
                                                  VkImageLayout layout, uint32_t texel_bytes) {
   const VkDeviceSize bytes = VkDeviceSize(desc_.width) * desc_.height * desc_.layers * texel_bytes;

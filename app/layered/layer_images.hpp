@@ -23,8 +23,10 @@ class LayerImages {
   ~LayerImages();
   const LayerImagesDesc& desc() const { return desc_; }
   umbrage::LayeredTargetDesc target() const;
-  VkImage depth() const { return depth_.image; }
-  VkImage color() const { return color_.image; }
+  /// From here on shaders sample the images: DEPTH_READ_ONLY and SHADER_READ_ONLY; nothing is drawn or read any more.
+  void end_drawing(const GpuContext&, VkCommandBuffer) const;
+  /// Of all layers of the depth image, or of the colour image.
+  umbrage::Result<Handle<VkImageView>> view(const GpuContext&, VkImageViewType, VkImageAspectFlags) const;
   /// All layers, one after the other, 0…1. Everything submitted has been waited for.
   umbrage::Result<std::vector<float>> read_depth(GpuContext&);
   /// Likewise; 16 bytes (RGBA32F) or 4 (RGBA8) a texel, as the format has it.

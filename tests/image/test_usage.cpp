@@ -28,7 +28,7 @@ TEST(Usage, HelpListsWhatWorksAndNothingElse) {
   const Outcome outcome = run_program({"--help"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"render", "compare", "bench", "info"})
+  for (const char* command : {"render", "compare", "bench", "layered", "info"})
     EXPECT_NE(outcome.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   for (const char* command : {"view", "diff"})
     EXPECT_EQ(outcome.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
@@ -69,7 +69,7 @@ TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
 
 TEST(Usage, WrongCommandsExitWith2) {
   expect_error({}, 2, "--help");
-  expect_error({"view", "builtin:houses"}, 2, "there is no command \"view\"; choose from render, compare, bench, info");
+  expect_error({"view", "builtin:houses"}, 2, "there is no command \"view\"; choose from render, compare, bench, layered, info");
   expect_error({"bench", "-o", "x"}, 2, "SUITE is required");
   expect_error({"bench", "other", "-o", "x"}, 2, "layered");
   expect_error({"bench", "layered"}, 2, "--output is required");
@@ -77,7 +77,7 @@ TEST(Usage, WrongCommandsExitWith2) {
   expect_error({"render"}, 2, "SCENE is required");
   expect_error({"render", "a.gltf"}, 2, "--output is required");
   expect_error({"render", "a.gltf", "-o", "a.png", "more"}, 2, "more");
-  expect_error({"info", "--recommend"}, 2, "--recommend");
+  expect_error({"info", "--device", "0"}, 2, "--recommend");
 }
 
 TEST(Usage, WrongValuesExitWith2AndNameTheOption) {
