@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "umbrage/layered_scene.hpp"
 
@@ -119,5 +120,17 @@ class LayeredPass {
   explicit LayeredPass(std::unique_ptr<State>);
   std::unique_ptr<State> state_;
 };
+
+/// What drawing costs, in any unit: of a group, casters × (caster + views × caster_in_view) + pass.
+struct GroupingCosts {
+  double caster = 1;            ///< Vertices: once a pass.
+  double caster_in_view = 0.5;  ///< Triangles: once a view, seen or not (CasterSelection::any_view).
+  double pass = 1;              ///< Of another pass.
+  uint32_t most_views = 256;    ///< Of a group.
+};
+/// Views that are worth a pass together, because they see the same casters (world boxes); every view is in one group. Passes
+/// with CasterSelection::each_view need none of this. Time grows with views³ × casters / 64.
+std::vector<std::vector<uint32_t>> group_overlapping_views(std::span<const LayeredView> views,
+                                                           std::span<const Aabb> casters, const GroupingCosts& = {});
 
 }  // namespace umbrage

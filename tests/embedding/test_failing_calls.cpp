@@ -3,6 +3,7 @@
 
 #include "failing_vulkan.hpp"
 #include "stub_host.hpp"
+#include "umbrage/layered_pass.hpp"
 
 namespace embedding {
 namespace {
@@ -83,6 +84,35 @@ TEST_F(FailingCalls, EditsAndFramesCanBeTriedAgain) {
       }
       EXPECT_EQ(found.of, expected) << "after " << failing_vulkan::failed_call() << " had failed";
     }
+    ASSERT_TRUE(failing_vulkan::alive().empty())
+        << failing_vulkan::alive().begin()->first << " leaked when " << failing_vulkan::failed_call() << " failed";
+  }
+}
+
+TEST_F(FailingCalls, LayeredPassesReportAndFreeEverything) {
+  const umbrage::Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const uint32_t indices[] = {0, 1, 2};
+  const umbrage::LayeredMesh mesh{.positions = corners, .indices = indices};
+  const umbrage::LayeredInstance instance;
+  /// Nothing, or the error of what failed.
+  const auto create_all = [&]() -> umbrage::Result<void> {
+    auto scene = umbrage::LayeredScene::create(desc_, {.meshes = {&mesh, 1}, .instances = {&instance, 1}});
+    if (!scene) return scene.error();
+    for (const auto writer : {umbrage::LayeredWriter::traditional, umbrage::LayeredWriter::compute}) {
+      auto pass = umbrage::LayeredPass::create(*scene, {.writer = writer, .depth_format = VK_FORMAT_D16_UNORM});
+      if (!pass) return pass.error();
+    }
+    return scene->begin_frame(1);
+  };
+  ASSERT_TRUE(create_all());
+  const size_t calls = failing_vulkan::calls();
+  ASSERT_GT(calls, 10u);
+  for (size_t n = 1; n <= calls; n++) {
+    const VkResult result = n % 3 == 0 ? VK_ERROR_DEVICE_LOST : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    failing_vulkan::fail_call(n, result);
+    const auto made = create_all();
+    ASSERT_FALSE(made.ok()) << "call " << n << ", " << failing_vulkan::failed_call() << ", failed unnoticed";
+    expect_error(made.error(), n, result);
     ASSERT_TRUE(failing_vulkan::alive().empty())
         << failing_vulkan::alive().begin()->first << " leaked when " << failing_vulkan::failed_call() << " failed";
   }

@@ -1,6 +1,7 @@
 // umbrage layered and info --recommend, as users run them.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -110,6 +111,38 @@ TEST(Layered, RecommendationsAreMeasuredAndUsed) {
                          "32x32", "--recommended", file})
                 .status,
             0);
+}
+
+// Measures, so it is apart: not beside other tests.
+TEST(LayeredBenchLongScene, QuickEndsInTwoMinutesAndResumes) {
+  const TemporaryFolder folder;
+  const auto run = [&] {
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run_program({"bench", "layered", "--quick", "-o", folder.file("results").string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  EXPECT_LT(run(), 120);
+  const std::string results = folder.file("results/results.json").string();
+  const nlohmann::json first = parse_json(bytes_of(results));
+  EXPECT_GT(first["rows"].size(), 100u);
+  for (const char* name :
+       {"results.csv", "report.html", "figure-19.3-ring.svg", "figure-19.4-ring.svg", "figure-19.5-ring.svg",
+        "figure-19.6-ring.svg", "figure-19.7-ring.svg", "figure-19.8-ring.svg", "figure-19.9-ring.svg"})
+    EXPECT_GT(bytes_of(folder.file(std::string("results/") + name).string()).size(), 500u) << name;
+  // A row that is missing, as after an interruption, is measured again, and nothing else is.
+  nlohmann::json cut = first;
+  cut["rows"].erase(cut["rows"].size() - 1);
+  folder.write("results/results.json", cut.dump());
+  EXPECT_LT(run(), 30);
+  const nlohmann::json second = parse_json(bytes_of(results));
+  ASSERT_EQ(second["rows"].size(), first["rows"].size());
+  EXPECT_EQ(second["rows"][0], first["rows"][0]);
+  cut["device"]["driver"] = "another";
+  folder.write("results/results.json", cut.dump());
+  const Outcome refused = run_program({"bench", "layered", "--quick", "-o", folder.file("results").string()});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("another device"), std::string::npos) << refused.err;
 }
 
 }  // namespace
