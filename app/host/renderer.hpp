@@ -33,7 +33,7 @@ struct ViewCamera {
 
 enum class Show : uint8_t {
   image, clusters, explicit_bounds, lights_per_pixel, normals, depth, resolution, texels_per_pixel, pages,
-  projection_maps, cube_projection
+  triangles_per_map, projection_maps, cube_projection
 };
 enum class ShowLight : uint8_t { ignored, used };   ///< What becomes of FrameInput::show_light.
 enum class ShowNeeds : uint8_t { nothing, page_pool };

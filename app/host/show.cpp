@@ -52,6 +52,8 @@ constexpr ShowInfo show_infos[] = {
      ShowLight::used},
     {Show::pages, "pages", "the pages of the map that each pixel's light uses, coloured by its resolution",
      ShowLight::used, ShowNeeds::page_pool},
+    {Show::triangles_per_map, "triangles-per-map", "how many triangles are drawn into the map that each pixel's light uses",
+     ShowLight::used, ShowNeeds::page_pool},
     {Show::projection_maps, "projection-maps", "the maps of one light unfolded: tiles with receivers, and pages",
      ShowLight::used, ShowNeeds::page_pool},
     {Show::cube_projection, "cube-projection", "the box of the cluster in the middle on the virtual cube of its light",
@@ -76,6 +78,8 @@ uint32_t shader_show(Show show) {
       return gpu::ShowTexelsPerPixel;
     case Show::pages:
       return gpu::ShowPages;
+    case Show::triangles_per_map:
+      return gpu::ShowTriangles;
     case Show::projection_maps:
       return gpu::ShowProjectionMaps;
     case Show::cube_projection:
@@ -92,6 +96,7 @@ std::string title_of(Show show, std::optional<uint32_t> light) {
   if (show == Show::resolution) return "map resolution" + of_light;
   if (show == Show::texels_per_pixel) return "pixels along a shadow texel" + of_light;
   if (show == Show::pages) return "pages by map resolution" + of_light;
+  if (show == Show::triangles_per_map) return "triangles drawn into the map" + of_light;
   if (show == Show::projection_maps) return "receiver tiles (bright: far) and pages of light";
   if (show == Show::cube_projection) return "cluster on the cube of light";
   return {};
@@ -168,7 +173,8 @@ void ShowPass::record(PassContext& pass, Show show, std::optional<uint32_t> ligh
   if (show == Show::projection_maps) {
     dispatch(pass, push, choose_light_.get(), 1, 1);
     dispatch(pass, push, projection_.get(), columns, rows);
-  } else if (show == Show::resolution || show == Show::texels_per_pixel || show == Show::pages) {
+  } else if (show == Show::resolution || show == Show::texels_per_pixel || show == Show::pages ||
+             show == Show::triangles_per_map) {
     dispatch(pass, push, maps_.get(), columns, rows);
   } else {
     if (show == Show::cube_projection) dispatch(pass, push, choose_receiver_.get(), 1, 1);

@@ -119,6 +119,7 @@ void MapCulling::record_round(gpu::Recorder& recorder, const Inputs& in, uint32_
   gpu::Pass pass = recorder.pass("write items");
   shared::ItemPush push = inputs(pass, in);
   push.counts = pass.read(counts_), push.totals = pass.read(totals_), push.counters = pass.write(in.counters);
+  pass.write(in.maps);
   push.items = pass.write(items_), push.draw_counts = pass.write(draw_counts_), push.used = pass.write(in.used_lights);
   push.window_first = round * capacity_;
   push.window_size = capacity_;

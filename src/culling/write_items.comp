@@ -56,4 +56,5 @@ void main() {
   walk(thread);
   add_wide(batches_drawn, false);
   add_wide(triangles_drawn, true);
+  if (triangles_drawn > 0u) atomicAdd(Maps(Frame(push.frame).record.maps).v[map_index].triangles, triangles_drawn);
 }

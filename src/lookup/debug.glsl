@@ -11,6 +11,7 @@ struct DebugMap {
   uint pages;        // along a view's side; 0: not made of pages
   uint page_side;    // texels
   bool whole;        // every page is there, and nothing is known of the receivers
+  uint triangles;    // (triangle, view) pairs drawn into it; fixed cubes: not counted
 };
 
 /// A place on a map. view NoIndex: the point is on none of its views.
@@ -19,12 +20,12 @@ struct DebugTexel {
   vec2 at;           // texels from the view's first corner
 };
 
-UMB_FN DebugMap debug_no_map(uint slot) { return DebugMap(NoIndex, slot, 0u, 0u, 0u, 0u, 0u, false); }
+UMB_FN DebugMap debug_no_map(uint slot) { return DebugMap(NoIndex, slot, 0u, 0u, 0u, 0u, 0u, false, 0u); }
 
 /// Map `index` of the frame, one of debug_light_maps.
 UMB_FN DebugMap debug_map_at(Frame frame, uint index, uint slot) {
   MapRecord map = UmbrageMapList(UmbrageFrames(frame.address).v[0].maps).v[index];
-  return DebugMap(index, slot, map.first_view, map.view_count, map.resolution, map.pages, page_side_of(map.resolution), map.whole != 0u);
+  return DebugMap(index, slot, map.first_view, map.view_count, map.resolution, map.pages, page_side_of(map.resolution), map.whole != 0u, map.triangles);
 }
 
 /// The map that umbrage_visibility looks up for light i of a cluster.
@@ -34,7 +35,7 @@ UMB_FN DebugMap debug_map(Frame frame, Cluster cluster, uint i) {
   LightRecord light = UmbrageLights(f.v[0].lights).v[slot];
   if (light.view_count == 0u) return debug_no_map(slot);
   if (store_of(frame) == StoreAtlas)
-    return DebugMap(NoIndex, slot, light.first_view, light.view_count, light.resolution, 0u, light.resolution, false);
+    return DebugMap(NoIndex, slot, light.first_view, light.view_count, light.resolution, 0u, light.resolution, false, 0u);
   uint index = cluster.first == NoIndex ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
   if (index == NoIndex) index = whole_map(frame, slot);
   return index == NoIndex ? debug_no_map(slot) : debug_map_at(frame, index, slot);

@@ -124,7 +124,7 @@ void write_maps(uint slot, Limits limits, inout Share at) {
       uint pages = pages_of(resolution);
       uint words = page_words_of(pages);
       Maps(frame.maps).v[at.maps] = MapRecord(slot, light.first_view, light.view_count, light.views, resolution, pages, words, at.words, at.views,
-                                              is_whole ? (1u << light.view_count) - 1u : 0u, uint(is_whole), light.light_mask, NoIndex, 0u, resolution);
+                                              is_whole ? (1u << light.view_count) - 1u : 0u, uint(is_whole), light.light_mask, NoIndex, 0u, resolution, 0u);
       ++at.maps;
       at.words += words * light.view_count;
       at.views += light.view_count;

@@ -34,8 +34,9 @@ struct MapRecord {
   uint image;              // stores of images: which, and the layer of the first view; NoIndex: none yet
   uint layer;
   uint asked;              // resolution asked for; more than `resolution` where images are short
+  uint triangles;          // (triangle, view) pairs drawn into it
 };
-UMB_ASSERT_SIZE(MapRecord, 60);
+UMB_ASSERT_SIZE(MapRecord, 64);
 
 /// Images that a store keeps maps in, at most.
 UMB_CONST uint MaxMapImages = 24u;

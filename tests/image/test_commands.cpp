@@ -32,8 +32,8 @@ Arguments room(const std::string& command, const Arguments& more) {
 }
 
 constexpr const char* kShows[] = {"clusters",   "explicit-bounds",  "lights-per-pixel", "normals",         "depth",
-                                  "resolution", "texels-per-pixel", "pages",            "projection-maps", "cube-projection"};
-constexpr const char* kShowsOfLights[] = {"resolution", "texels-per-pixel", "pages", "projection-maps"};
+                                  "resolution", "texels-per-pixel", "pages",            "triangles-per-map", "projection-maps", "cube-projection"};
+constexpr const char* kShowsOfLights[] = {"resolution", "texels-per-pixel", "pages", "triangles-per-map", "projection-maps"};
 
 Outcome run_well(const Arguments& arguments) {
   Outcome outcome = run_program(arguments);
@@ -314,7 +314,7 @@ TEST(Render, DebugPicturesOfMapsAreAboutTheLightAskedFor) {
   };
   refuse({"--show", "pages", "--show-light", "4"}, "there is no light 4");
   refuse({"--show", "depth", "--show-light", "0"}, "not about one light");
-  for (const char* show : {"pages", "projection-maps"}) refuse({"--show", show, "--preset", "fixed-cubes"}, "store=page_pool");
+  for (const char* show : {"pages", "triangles-per-map", "projection-maps"}) refuse({"--show", show, "--preset", "fixed-cubes"}, "store=page_pool");
 }
 
 TEST(Render, FixedCubesHaveDebugPicturesOfTheirOneResolution) {

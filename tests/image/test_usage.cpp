@@ -54,7 +54,7 @@ TEST(Usage, ShowListNamesTheDebugPicturesWithoutAScene) {
   const Outcome outcome = run_program({"render", "--show", "list"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* name : {"image", "clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth", "resolution",
-                           "texels-per-pixel", "pages", "projection-maps", "cube-projection"})
+                           "texels-per-pixel", "pages", "triangles-per-map", "projection-maps", "cube-projection"})
     EXPECT_NE(std::string("\n").append(outcome.out).find(std::string("\n").append(name).append(" ")), std::string::npos) << outcome.out;
 }
 

@@ -137,6 +137,7 @@ const uint ShowTexelsPerPixel = 7u;
 const uint ShowPages = 8u;
 const uint ShowProjectionMaps = 9u;
 const uint ShowCubeProjection = 10u;
+const uint ShowTriangles = 11u;
 
 /// Morph, then skin, one thread a vertex.
 struct DeformPush {

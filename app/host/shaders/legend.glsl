@@ -42,10 +42,14 @@ bool in_number(ivec2 pixel, ivec2 corner, int scale, uint number) {
   return in_char(pixel, corner + ivec2(place * char_width(scale), 0), scale, 48u + number % 10u);
 }
 
-/// 2^exponent: 4, 2, 1, 1/2, 1/4 …
+/// 2^exponent: 16K … 4, 2, 1, 1/2, 1/4 …
 bool in_power(ivec2 pixel, ivec2 corner, int scale, int exponent) {
-  if (exponent >= 0) return in_number(pixel, corner, scale, 1u << exponent);
   int step_px = char_width(scale);
+  if (exponent >= 14) {
+    uint thousands = 1u << exponent - 10;
+    return in_number(pixel, corner, scale, thousands) || in_char(pixel, corner + ivec2(digits_of(thousands) * step_px, 0), scale, 75u);
+  }
+  if (exponent >= 0) return in_number(pixel, corner, scale, 1u << exponent);
   return in_char(pixel, corner, scale, 49u) || in_char(pixel, corner + ivec2(step_px, 0), scale, 47u) ||
          in_number(pixel, corner + ivec2(2 * step_px, 0), scale, 1u << -exponent);
 }

@@ -1,5 +1,5 @@
 // Debug pictures of the map that each pixel's brightest light is looked up in: its resolution, the size of its texels, its
-// pages.
+// pages, the triangles drawn into it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform Push { ShowPush push; };
 
 const int first_level = 2, levels = 12;        // Maps have 4…8192 texels a side.
 const int finest_texel = -3, texel_steps = 7;  // 1/8…8 pixels.
+const int fewest_triangles = 5, triangle_steps = 14;   // 32…2^18 and more.
 const vec3 unmarked_color = vec3(1.0, 0.0, 1.0);
 
 /// The map of one pixel, and the page of it on which the pixel lies.
@@ -32,6 +33,8 @@ vec3 texel_color(float exponent) {
   float share = abs(x) * 2.0;
   return share < 1.0 ? mix(vec3(0.95), middle, share) : mix(middle, far, share - 1.0);
 }
+
+vec3 triangles_color(float exponent) { return turbo((exponent - float(fewest_triangles) + 0.5) / float(triangle_steps)); }
 
 Seen seen_at(Frame frame, UmbrageFrame shadows, Point p) {
   Seen seen = Seen(NoLight, umbrage_debug_no_map(0u), UmbrageNoIndex, uvec2(0u));
@@ -78,13 +81,17 @@ vec3 page_color(Frame frame, UmbrageFrame shadows, ivec2 pixel, Seen seen) {
 }
 
 vec3 legend_color(int exponent) {
+  if (push.show == ShowTriangles) return triangles_color(float(exponent));
   return push.show == ShowTexelsPerPixel ? texel_color(float(exponent)) : level_color(float(exponent));
 }
 
 vec3 with_legend(ivec2 pixel, ivec2 size, vec3 under) {
   bool texels = push.show == ShowTexelsPerPixel;
   int exponent;
-  uint place = texels ? legend_at(pixel, size, finest_texel, texel_steps, exponent) : legend_at(pixel, size, first_level, levels, exponent);
+  uint place;
+  if (push.show == ShowTriangles) place = legend_at(pixel, size, fewest_triangles, triangle_steps, exponent);
+  else if (texels) place = legend_at(pixel, size, finest_texel, texel_steps, exponent);
+  else place = legend_at(pixel, size, first_level, levels, exponent);
   if (place == LegendField) return legend_color(exponent);
   if (place != LegendOutside) return place == LegendInk ? legend_ink : legend_paper;
   return with_title(pixel, size, NoNumber, under);
@@ -104,6 +111,7 @@ void main() {
     if (push.show == ShowResolution) shown = level_color(log2(float(seen.map.resolution)));
     if (push.show == ShowTexelsPerPixel) shown = texel_color(texel_exponent(frame, shadows, p, seen.light));
     if (push.show == ShowPages) shown = page_color(frame, shadows, pixel, seen);
+    if (push.show == ShowTriangles) shown = triangles_color(log2(max(float(seen.map.triangles), 1.0)));
     shown *= mix(0.6, 1.0, lit);
   }
   imageStore(picture_target, pixel, vec4(with_legend(pixel, size, shown), 1.0));
