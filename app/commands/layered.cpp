@@ -9,6 +9,7 @@
 #include "commands/session.hpp"
 #include "commands/surfaces.hpp"
 #include "layered/layered_cases.hpp"
+#include "layered/layered_geometry.hpp"
 #include "layered/layered_recommendation.hpp"
 #include "layered/use_picture.hpp"
 
@@ -51,6 +52,16 @@ Result<umbrage::LayeredWriter> choose_writer(const LayeredOptions& options, cons
   for (const umbrage::LayeredWriter writer : kLayeredWriters)
     if (umbrage::name_of(writer) == name) return writer;
   return umbrage::LayeredWriter::traditional;  // what every device has
+}
+
+/// Of what is drawn.
+Box solid_bounds(const Scene& scene, const Pose& posed) {
+  Box box;
+  for_each_primitive(scene, posed, [&](const PosedPrimitive& visited) {
+    if (!is_solid(scene.materials[visited.primitive->material])) return;
+    for (const glm::vec3& position : visited.positions) box.extend(position);
+  });
+  return box;
 }
 
 /// The surface straight below a point, or the scene's lowest.
@@ -140,7 +151,7 @@ Result<void> run_layered(const LayeredOptions& options, Outputs& outputs) {
   const auto scene = load_scene(options.scene);
   if (!scene) return scene.error();
   const Pose posed = pose(*scene, options.time_s);
-  const Box bounds = scene_bounds(*scene, posed);
+  const Box bounds = solid_bounds(*scene, posed);
   if (bounds.is_empty()) return invalid(options.scene + ": there is nothing to draw");
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
   const auto camera = CameraSource::create(options.camera, posed, bounds, aspect);

@@ -66,6 +66,12 @@ LayeredArrays::Mesh make_mesh(const Primitive& primitive, const Material& materi
 
 }  // namespace
 
+bool is_solid(const Material& material) {
+  const bool only_glows =
+      material.unlit || (glm::vec3(material.base_color) == glm::vec3(0) && material.emissive != glm::vec3(0));
+  return material.alpha_mode != AlphaMode::blend && !only_glows;
+}
+
 LayeredArrays layered_arrays(const Scene& scene, const Pose& pose, const TextureTable* textures) {
   LayeredArrays out;
   Masks masks(textures, out.masks);
@@ -75,7 +81,7 @@ LayeredArrays layered_arrays(const Scene& scene, const Pose& pose, const Texture
     for (size_t p = 0; p < primitives.size(); ++p) {
       const Primitive& primitive = primitives[p];
       const Material& material = scene.materials[primitive.material];
-      if (material.alpha_mode == AlphaMode::blend || primitive.indices.empty()) continue;
+      if (!is_solid(material) || primitive.indices.empty()) continue;
       const bool deforms = instance.skin >= 0 || !instance.weights.empty();
       auto mesh = static_cast<uint32_t>(out.meshes.size());
       if (deforms) {

@@ -30,8 +30,11 @@ struct LayeredArrays {
 umbrage::Affine affine_rows(const glm::mat4&);
 umbrage::Mat4 mat4(const glm::mat4&);
 
+/// Not blended, and not only glowing (skies, lamps): those neither cast nor reflect light.
+bool is_solid(const Material&);
+
 /// Skinned and morphed meshes are taken as they are posed. textures (may be null: masked materials become opaque) outlives
-/// what is made of it. Blended materials are left out.
+/// what is made of it. What is not solid is left out.
 LayeredArrays layered_arrays(const Scene&, const Pose&, const TextureTable* textures);
 
 }  // namespace app

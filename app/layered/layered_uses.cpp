@@ -205,7 +205,10 @@ glm::mat4 mirrored_matrix(const UseScene& scene, float height) {
 glm::vec4 mirror_ball(const UseScene& scene) {
   const glm::mat4 world_from_view = glm::inverse(scene.view_from_world);
   const glm::vec3 eye(world_from_view[3]), forward = -glm::vec3(world_from_view[2]);
-  const float distance = 0.12f * glm::length(scene.highest - scene.lowest);
+  // As far off as the ground below the camera allows.
+  float distance = 0.12f * glm::length(scene.highest - scene.lowest);
+  const auto reach = [&] { return eye.y + distance * forward.y - 1.3f * 0.3f * distance; };
+  for (int i = 0; i < 20 && reach() < scene.mirror_height; ++i) distance *= 0.8f;
   return glm::vec4(eye + distance * forward, 0.3f * distance);
 }
 
