@@ -194,7 +194,7 @@ class LayeredRun {
       const std::string left = done > 0 ? ", " + time_left(elapsed_s * (total - done) / done) + " left" : "";
       progress.show(job.row.test_case + ", " + job.row.writer + ", " + std::to_string(job.row.side) + "²" + left, i + 1,
                     jobs.size());
-      const uint32_t repeats = options_.is_quick ? 2 : 7;
+      const uint32_t repeats = options_.is_quick ? 3 : 5;
       const auto times = bench.measure(*scene, views_of(arrays, job.row.maps),
                                        {settings_of(*job.test_case, job.writer), job.row.side, repeats});
       if (!times) return times.error();

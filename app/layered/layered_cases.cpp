@@ -36,12 +36,6 @@ Extent3 extent_of(const LayeredArrays& arrays) {
   return {0.5f * (lo + hi), glm::length(hi - lo)};
 }
 
-double quantile(const std::vector<double>& sorted, double at) {
-  const double place = at * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(place);
-  const size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 }  // namespace
 
 std::span<const LayeredCase> layered_cases() {
@@ -236,8 +230,8 @@ Result<LayeredTimes> LayeredBench::measure(umbrage::LayeredScene& scene, const s
     times.cpu_us = std::min(times.cpu_us, cpu_us);
   }
   std::sort(gpu_ms.begin(), gpu_ms.end());
-  times.gpu_ms = quantile(gpu_ms, 0.5);
-  times.gpu_ms_spread = 0.5 * (quantile(gpu_ms, 0.75) - quantile(gpu_ms, 0.25));
+  times.gpu_ms = gpu_ms.front();
+  times.gpu_ms_spread = gpu_ms[gpu_ms.size() / 2] - gpu_ms.front();
   times.splits = pass->splits();
   return times;
 }

@@ -45,8 +45,9 @@ void add_hidden_instances(LayeredArrays&, uint32_t instances);
 std::vector<umbrage::LayeredView> views_of(const LayeredArrays&, uint32_t count);
 
 struct LayeredTimes {
-  double gpu_ms = 0, gpu_ms_spread = 0;  ///< Median, and half the distance of the quartiles.
-  double cpu_us = 0;                     ///< prepare and record: the least.
+  double gpu_ms = 0;         ///< The least: what else a machine does only ever adds.
+  double gpu_ms_spread = 0;  ///< From the least to the median.
+  double cpu_us = 0;         ///< prepare and record: the least.
   uint32_t splits = 0;
 };
 struct LayeredJob {

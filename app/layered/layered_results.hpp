@@ -11,7 +11,7 @@ namespace app {
 struct LayeredRow {
   std::string scene, test_case, figure, writer;
   uint32_t side = 0, maps = 0;
-  double gpu_ms = 0, gpu_ms_spread = 0;  ///< Median; half the distance of the quartiles.
+  double gpu_ms = 0, gpu_ms_spread = 0;  ///< Least; from the least to the median.
   double cpu_us = 0;                     ///< Least of prepare and record.
   uint32_t splits = 0;
 
