@@ -2,7 +2,6 @@
 // What each reads and writes is declared where it is recorded, and barriers follow from that (gpu/recorder.hpp).
 #include "frame.hpp"
 
-
 namespace umbrage {
 
 void Frame::record_scene(gpu::Recorder& recorder, const FramePlan& plan, gpu::Uploader& uploader, gpu::RetireQueue& retired) {
@@ -10,7 +9,7 @@ void Frame::record_scene(gpu::Recorder& recorder, const FramePlan& plan, gpu::Up
   scene.record(recorder, scene_pipelines, uploader, retired, plan.serial);
 }
 
-void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
+void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, const gpu::Buffer& requests) {
   // Depth → occupied clusters with explicit bounds and normal cones (O1, O9).
   clusters.record_clusters(recorder, block, counters, plan.tiles, plan.normal_encoding);
 
@@ -19,22 +18,22 @@ void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
 
   // Used lights → their shadow views.
   views.record(recorder, block, counters, scene, clusters.used_lights(), plan.all_lights);
+  if (scene.light_slots() == 0 || plan.store == Store::fixed_cubes) return;
 
-  if (scene.light_slots() > 0 && plan.store == Store::fixed_cubes) {
-    record_fixed_cubes(recorder, plan);
-  } else if (scene.light_slots() > 0) {
-    record_requests(recorder, plan);
-    record_virtual_maps(recorder, plan);
-  }
-  publish(recorder, plan);
-}
-
-void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan) {
   // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
   maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, backing(plan.store), plan.all_lights});
 
-  // Marked pages → places in the pool, cleared.
+  // Marked pages → places in the pool, cleared; or a list for the host, which binds them (O18).
   if (plan.store == Store::page_pool) pool.record(recorder, maps, block, counters);
+  if (plan.store == Store::hardware_sparse) sparse.record_requests(recorder, maps, block, counters, requests);
+}
+
+void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
+  if (scene.light_slots() > 0 && plan.store == Store::fixed_cubes) record_fixed_cubes(recorder, plan);
+  if (scene.light_slots() > 0 && plan.store != Store::fixed_cubes) record_virtual_maps(recorder, plan);
+
+  // Everything a lookup reads → the host's shading.
+  publish(recorder, plan);
 }
 
 void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) {
@@ -43,7 +42,7 @@ void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) 
                                          clusters.used_lights(), caster_shape(), plan.settings.caster_culling};
   map_culling.record_count(recorder, cull);
   if (plan.store == Store::page_pool) record_pages(recorder, plan, cull);
-  if (plan.store == Store::physical_pool) record_layers(recorder, plan, cull);
+  else record_layers(recorder, plan, cull);
 }
 
 void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
@@ -63,7 +62,7 @@ void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const c
 
 void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
   const raster::LayerWriter::Inputs write{scene, block, counters, views.buffer(), maps.maps(), map_culling.items(), map_culling.draw_counts(),
-                                          map_culling.capacity(), images, image_table()};
+                                          map_culling.capacity(), map_images(plan.store), maps.page_bits(), plan.settings.max_resolution, image_table()};
   layer_writer.record_clear(recorder, write);
   for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
     map_culling.record_round(recorder, cull, round);
@@ -73,19 +72,25 @@ void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const 
 
 maps::Maps::Backing Frame::backing(Store kind) const {
   if (kind == Store::page_pool) return {.capacity_units = pool.capacity_units()};
-  return {.block = {1, 1}, .capacity_units = UINT32_MAX, .images = image_table(), .image_count = static_cast<uint32_t>(images.images().size()),
-          .most_views = images.layout().most_views, .whole_images = true};
+  const store::ImageLayout& layout = map_images(kind).layout();
+  maps::Maps::Backing backing{.block = {1, 1}, .capacity_units = UINT32_MAX, .images = image_table(), .image_count = static_cast<uint32_t>(layout.images.size()),
+                              .most_views = layout.most_views, .whole_images = true};
+  if (kind == Store::physical_pool) return backing;
+  backing.block = sparse.form().page;
+  backing.capacity_units = sparse.layout().pages * (backing.block.x * backing.block.y / shared::PoolUnit);
+  backing.most_views = sparse.layout().images.most_views;
+  backing.whole_images = false;
+  return backing;
 }
 
 void Frame::publish(gpu::Recorder& recorder, const FramePlan& plan) {
-  // Everything a lookup reads → the host's shading.
   published_.assign({&block, &counters, &scene.light_buffer(), &scene.light_order_buffer(), &views.buffer()});
   for (const gpu::Buffer* buffer : clusters.published()) published_.push_back(buffer);
   if (plan.store != Store::fixed_cubes)
     for (const gpu::Buffer* buffer : maps.published()) published_.push_back(buffer);
   if (plan.store == Store::page_pool) published_.push_back(&pool.pool());
   published_images_.assign({&store.atlas()});
-  for (const gpu::Image* image : images.published()) published_images_.push_back(image);
+  for (const gpu::Image* image : map_images(plan.store).published()) published_images_.push_back(image);
   recorder.publish(published_, published_images_, plan.consumer_stages);
 }
 
@@ -119,6 +124,20 @@ void Frame::record_statistics(gpu::Recorder& recorder, const gpu::Buffer& target
   pass.commands();
 }
 
+Result<void> Frame::create_sparse(const gpu::Device& device, const gpu::PipelineFactory& factory, SparseTexels texels) {
+  using Target = raster::LayerWriter::Target;
+  const auto form = store::choose_sparse_form(device, texels);
+  if (!form) return form.error();
+  auto images_made = store::SparseImages::create(device, factory, *form);
+  if (!images_made) return images_made.error();
+  sparse = std::move(*images_made);
+  const Target words = device.capabilities().shader_residency ? Target::resident_words : Target::words;
+  auto writer = raster::LayerWriter::create(factory, form->is_attachment ? Target::depth16 : words);
+  if (!writer) return writer.error();
+  layer_writer = std::move(*writer);
+  return {};
+}
+
 Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Memory& memory, const gpu::PipelineFactory& factory,
                                              const StaticSettings& settings) {
   std::unique_ptr<Frame> frame(new Frame(device, memory, settings));
@@ -140,7 +159,9 @@ Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Mem
     if (auto ok = make(frame->page_raster, raster::PageRaster::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->page_fragments, raster::PageFragments::create(factory)); !ok) return ok.error();
   } else if (settings.store == Store::physical_pool) {
-    if (auto ok = make(frame->layer_writer, raster::LayerWriter::create(factory, VK_FORMAT_D16_UNORM)); !ok) return ok.error();
+    if (auto ok = make(frame->layer_writer, raster::LayerWriter::create(factory, raster::LayerWriter::Target::depth16)); !ok) return ok.error();
+  } else if (settings.store == Store::hardware_sparse) {
+    if (auto ok = frame->create_sparse(device, factory, settings.sparse_texels); !ok) return ok.error();
   } else {
     if (auto ok = make(frame->culling, culling::CasterCulling::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->writers, raster::Writers::create(factory)); !ok) return ok.error();

@@ -14,6 +14,7 @@
 #include "scene/gpu_scene.hpp"
 #include "store/fixed_cubes.hpp"
 #include "store/page_pool.hpp"
+#include "store/sparse_images.hpp"
 
 namespace umbrage {
 
@@ -41,10 +42,15 @@ struct Frame {
 
   /// 0…1: needs no depth buffer.
   void record_scene(gpu::Recorder&, const FramePlan&, gpu::Uploader&, gpu::RetireQueue&);
-  /// 3…11: after the host's depth.
+  /// 3…8: after the host's depth. Store::hardware_sparse: which pages are needed, for the host, goes to `requests`.
+  void record_requests(gpu::Recorder&, const FramePlan&, const gpu::Buffer& requests);
+  /// 9…11
   void record_shadows(gpu::Recorder&, const FramePlan&);
   /// Counters and light states for the host, into `target` (FrameReport, then a word a light slot).
   void record_statistics(gpu::Recorder&, const gpu::Buffer& target);
+
+  /// The images that maps lie in: none, those of the physical pool, or sparse ones.
+  const store::MapImages& map_images(Store kind) const { return kind == Store::hardware_sparse ? sparse.images() : images; }
 
   VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }
   VkDeviceAddress image_table() const { return block.address() + offsetof(FrameBlock, images); }
@@ -63,7 +69,9 @@ struct Frame {
   raster::PageFragments page_fragments;
   // Store::physical_pool
   store::MapImages images;
-  raster::LayerWriter layer_writer;
+  // Store::hardware_sparse
+  store::SparseImages sparse;
+  raster::LayerWriter layer_writer;   // of both
   // Store::fixed_cubes
   store::FixedCubes store;
   culling::CasterCulling culling;
@@ -72,12 +80,12 @@ struct Frame {
   uint32_t max_draws = 0;
 
  private:
-  void record_requests(gpu::Recorder&, const FramePlan&);
   void record_virtual_maps(gpu::Recorder&, const FramePlan&);
   void publish(gpu::Recorder&, const FramePlan&);
   void record_pages(gpu::Recorder&, const FramePlan&, const culling::MapCulling::Inputs&);
   void record_layers(gpu::Recorder&, const FramePlan&, const culling::MapCulling::Inputs&);
   maps::Maps::Backing backing(Store) const;
+  Result<void> create_sparse(const gpu::Device&, const gpu::PipelineFactory&, SparseTexels);
   void record_fixed_cubes(gpu::Recorder&, const FramePlan&);
   std::vector<const gpu::Buffer*> published_;   // kept, so that recording allocates nothing
   std::vector<const gpu::Image*> published_images_;

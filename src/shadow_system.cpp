@@ -35,7 +35,7 @@ Result<ShadowSystem> ShadowSystem::create(const DeviceDesc& desc, const StaticSe
   state->device = std::move(*device);
   if (auto ok = state->check_device(); !ok) return ok.error();
   state->memory = std::make_unique<gpu::Memory>(*state->device);
-  auto pipelines = gpu::PipelineFactory::create(*state->device, shared::MaxMasks);
+  auto pipelines = gpu::PipelineFactory::create(*state->device, shared::MaxMasks, state->storage_images());
   if (!pipelines) return pipelines.error();
   state->pipelines = std::move(*pipelines);
   auto frame = Frame::create(*state->device, *state->memory, *state->pipelines, settings);
@@ -109,6 +109,8 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
     s.fill_block(block, *record, *s.current);
     std::memset(s.current->statistics.mapped(), 0, sizeof(shared::TapCounts));
+    if (s.current->page_requests) std::memset(s.current->page_requests.mapped(), 0, sizeof(shared::SparseRequests));
+    s.pages_bound = false;
     s.current->uploader.copy(s.frame->block, 0, &block, sizeof block);
     shared::FrameCounters counters{};
     counters.pair_limit = s.plan.caster_rounds * s.caster_pairs_per_round();
@@ -133,9 +135,40 @@ void ShadowSystem::record_shadows(VkCommandBuffer commands) {
   State& s = *state_;
   assert(s.current && "record_shadows comes after record_scene");
   Stopwatch watch(s.current->cpu_record_ms);
+  assert((!binds_pages() || s.pages_bound) && "record_shadows comes after bind_pages");
   gpu::Recorder recorder = s.recorder(commands, *s.current);
+  if (!binds_pages()) s.frame->record_requests(recorder, s.plan, s.current->page_requests);
   s.frame->record_shadows(recorder, s.plan);
   s.frame->record_statistics(recorder, s.current->statistics);
+}
+
+bool ShadowSystem::binds_pages() const { return state_->settings.store == Store::hardware_sparse; }
+
+void ShadowSystem::record_requests(VkCommandBuffer commands) {
+  State& s = *state_;
+  assert(s.current && binds_pages() && "record_requests is for hardware_sparse and comes after record_scene");
+  Stopwatch watch(s.current->cpu_record_ms);
+  gpu::Recorder recorder = s.recorder(commands, *s.current);
+  s.frame->record_requests(recorder, s.plan, s.current->page_requests);
+}
+
+Result<void> ShadowSystem::bind_pages(const PageBinding& binding) {
+  State& s = *state_;
+  if (!binds_pages()) return invalid("bind_pages: only store=hardware_sparse binds pages (ShadowSystem::binds_pages)");
+  if (!s.current) return invalid("bind_pages comes after begin_frame and record_requests");
+  if (!binding.queue) return invalid("PageBinding::queue is VK_NULL_HANDLE");
+  Stopwatch watch(s.current->known.bind_ms);
+  if (binding.requests) {
+    const VkResult result = s.device->vk().vkWaitForFences(s.device->handle(), 1, &binding.requests, VK_TRUE, UINT64_MAX);
+    if (result != VK_SUCCESS) return gpu::vulkan_error(result, "vkWaitForFences", "PageBinding::requests");
+  }
+  const auto bound = s.frame->sparse.bind(binding.queue, s.current->page_requests, binding.bound);
+  if (!bound) return bound.error();
+  s.current->known.bytes_read_back = bound->bytes_read;
+  s.current->known.pages_bound = bound->bound;
+  s.current->known.pages_unbound = bound->unbound;
+  s.pages_bound = true;
+  return {};
 }
 
 ShaderInterface ShadowSystem::shader_interface(CameraId) const {

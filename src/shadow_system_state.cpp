@@ -23,9 +23,11 @@ Result<void> ShadowSystem::State::check_device() const {
 }
 
 Result<void> ShadowSystem::State::create_host_layout() {
-  const std::array<VkDescriptorSetLayoutBinding, 2> images{{{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr},
-                                                           {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr}}};
-  const std::array<VkDescriptorBindingFlags, 2> partly{0, VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT};
+  const std::array<VkDescriptorSetLayoutBinding, 3> images{{{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr},
+                                                           {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr},
+                                                           {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr}}};
+  constexpr VkDescriptorBindingFlags kPartly = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
+  const std::array<VkDescriptorBindingFlags, 3> partly{0, kPartly, kPartly};
   VkDescriptorSetLayoutBindingFlagsCreateInfo flags{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
   flags.bindingCount = static_cast<uint32_t>(partly.size());
   flags.pBindingFlags = partly.data();
@@ -44,8 +46,9 @@ Result<void> ShadowSystem::State::create_host_layout() {
 }
 
 Result<void> ShadowSystem::State::create_sets(uint32_t frames_in_flight) {
-  const std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (3 + shared::MaxMapImages) * frames_in_flight},
-                                                   {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::MaxMasks}}};
+  const std::array<VkDescriptorPoolSize, 3> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (3 + 2 * shared::MaxMapImages) * frames_in_flight},
+                                                   {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::MaxMasks},
+                                                   {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, std::max(storage_images(), 1u) * frames_in_flight}}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT;
   info.maxSets = 2 * frames_in_flight + 1;
@@ -145,20 +148,41 @@ void ShadowSystem::State::read_map_statistics(const shared::FrameReport& report)
   map_sizes.receiver_views = grown(map_sizes.receiver_views, counters.receiver_views_found);
 }
 
+void ShadowSystem::State::lay_out_images(const FrameSettings& frame_settings, std::vector<uint32_t>& changed) {
+  const bool is_sparse = settings.store == Store::hardware_sparse;
+  const gpu::Limits& limits = device->limits();
+  store::ImageDemand demand{.finest = frame_settings.max_resolution, .texels = budget_bytes() / texel_bytes(), .most_side = limits.max_image_side,
+                            .most_layers = limits.max_image_layers};
+  const store::LeastRoom room = store::least_room_of_images(demand, is_sparse ? store::kOrdinaryMaps : store::kLeastMaps, texel_bytes());
+  views = store::number_views(frame->scene.lights(), room, changed, without_map);
+  // In powers of two, so that a light more or less makes no new images.
+  demand.views = static_cast<uint32_t>(std::min<uint64_t>(std::bit_ceil(views), room.views));
+  if (!is_sparse) {
+    image_layout = store::lay_out_images(demand);
+    return;
+  }
+  const store::SparseForm& form = frame->sparse.form();
+  const VkImageFormatProperties most = device->sparse_image_limits(form.format(), form.usage());
+  demand.most_side = std::min({demand.most_side, most.maxExtent.width, most.maxExtent.height});
+  demand.most_layers = std::min(demand.most_layers, most.maxArrayLayers);
+  // A quarter of the address space is left to others.
+  const uint64_t address_texels = limits.sparse_address_bytes / 4 * 3 / form.texel_bytes();
+  sparse_layout = store::lay_out_sparse(demand, form, address_texels, most.maxResourceSize / form.texel_bytes());
+}
+
+uint64_t ShadowSystem::State::texel_bytes() const {
+  if (settings.store == Store::hardware_sparse) return frame->sparse.form().texel_bytes();
+  return settings.store == Store::physical_pool ? sizeof(uint16_t) : sizeof(uint32_t);
+}
+
 Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settings) {
   const std::array<uint32_t, 2> wanted{frame_settings.min_resolution, frame_settings.max_resolution};
   if (!frame->scene.lights_edited() && wanted == laid_out_for) return {};
   std::vector<uint32_t> changed;
   if (settings.store == Store::page_pool) {
     views = store::number_views(frame->scene.lights(), store::least_room_of_pool(budget_bytes()), changed, without_map);
-  } else if (settings.store == Store::physical_pool) {
-    store::ImageDemand demand{.finest = frame_settings.max_resolution, .texels = budget_bytes() / texel_bytes(),
-                              .most_side = device->limits().max_image_side, .most_layers = device->limits().max_image_layers};
-    const store::LeastRoom room = store::least_room_of_images(demand, texel_bytes());
-    views = store::number_views(frame->scene.lights(), room, changed, without_map);
-    // In powers of two, so that a light more or less makes no new images.
-    demand.views = static_cast<uint32_t>(std::min<uint64_t>(std::bit_ceil(views), room.views));
-    image_layout = store::lay_out_images(demand);
+  } else if (has_virtual_maps()) {
+    lay_out_images(frame_settings, changed);
   } else {
     layout = store::lay_out(frame->scene.lights(), budget_bytes(), device->limits().max_image_side, frame_settings, changed, without_map);
     views = layout.views;
@@ -180,6 +204,8 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
     if (auto ok = reserve_page_pool(desc); !ok) return ok.error();
   if (settings.store == Store::physical_pool)
     if (auto ok = reserve_physical_pool(desc); !ok) return ok.error();
+  if (settings.store == Store::hardware_sparse)
+    if (auto ok = reserve_sparse(slot, desc); !ok) return ok.error();
   const VkDeviceSize bytes = sizeof(shared::FrameReport) + light_slots * sizeof(uint32_t);
   if (!slot.statistics || slot.statistics.size() < bytes) {
     auto made = gpu::Buffer::create(*device, *memory, 2 * bytes, gpu::MemoryKind::readback, "statistics");
@@ -196,6 +222,8 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
     known.shadow_memory_bytes = frame->pool.pool().size();
   } else if (settings.store == Store::physical_pool) {
     known.shadow_memory_bytes = image_layout.texels * texel_bytes();
+  } else if (settings.store == Store::hardware_sparse) {
+    known.shadow_memory_bytes = frame->sparse.memory_bytes();
   } else {
     known.map_resolution = layout.resolution;
     known.texels_allocated = frame->store.texels();
@@ -226,7 +254,7 @@ Result<void> ShadowSystem::State::reserve_virtual_maps(const FrameDesc& desc) {
   const auto grid_bytes = [&] { return uint64_t(map_sizes.receiver_views) * map_sizes.receiver_grid * map_sizes.receiver_grid * sizeof(uint32_t); };
   while (map_sizes.receiver_grid > 1 && grid_bytes() > kMaxGridBytes) map_sizes.receiver_grid /= 2;
   if (auto ok = frame->maps.reserve(*device, *memory, map_sizes, outgrown); !ok) return ok;
-  const uint32_t most = settings.store == Store::physical_pool ? raster::kLayerItems : UINT32_MAX;
+  const uint32_t most = settings.store == Store::page_pool ? UINT32_MAX : raster::kLayerItems;
   const uint32_t capacity = std::min(std::max({caster_capacity(), frame->map_culling.capacity(), 1024u}), most);
   if (auto ok = frame->map_culling.reserve(*device, *memory, map_sizes.maps, capacity, outgrown); !ok) return ok;
   return frame->map_culling.prepare(*pipelines, desc.settings.caster_culling);
@@ -239,8 +267,18 @@ Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
 }
 
 Result<void> ShadowSystem::State::reserve_physical_pool(const FrameDesc& desc) {
-  if (auto ok = frame->images.reserve(*device, *memory, image_layout, VK_FORMAT_D16_UNORM, retired, desc.serial); !ok) return ok;
+  if (auto ok = frame->images.reserve(*device, *memory, image_layout, {.format = VK_FORMAT_D16_UNORM}, retired, desc.serial); !ok) return ok;
   return frame->layer_writer.reserve(*device, *memory, image_layout, outgrown);
+}
+
+Result<void> ShadowSystem::State::reserve_sparse(FrameSlot& slot, const FrameDesc& desc) {
+  if (auto ok = frame->sparse.reserve(*device, *memory, sparse_layout, retired, desc.serial); !ok) return ok;
+  if (!slot.page_requests || slot.page_requests.size() < frame->sparse.request_bytes()) {
+    auto made = gpu::Buffer::create(*device, *memory, frame->sparse.request_bytes(), gpu::MemoryKind::readback, "page requests");
+    if (!made) return made.error();
+    slot.page_requests = std::move(*made);
+  }
+  return frame->layer_writer.reserve(*device, *memory, sparse_layout.images, outgrown);
 }
 
 /// (batch, view) pairs of fixed cubes, (batch, map) pairs of virtual shadow maps.
@@ -274,6 +312,7 @@ uint32_t ShadowSystem::State::shader_store() const {
     case Store::fixed_cubes: return shared::StoreAtlas;
     case Store::page_pool: return shared::StorePool;
     case Store::physical_pool: return shared::StoreImages;
+    case Store::hardware_sparse: return frame->sparse.form().is_attachment ? shared::StoreSparseDepth : shared::StoreSparseWords;
   }
   return shared::StorePool;
 }
@@ -293,8 +332,9 @@ void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraReco
   if (has_virtual_maps()) frame->maps.fill(record);
   record.store = shader_store();
   if (settings.store == Store::page_pool) frame->pool.fill(record);
-  if (settings.store == Store::physical_pool) record.depth_step = 1.0f / 65535.0f;
-  std::copy(image_layout.images.begin(), image_layout.images.end(), block.images.begin());
+  if (has_virtual_maps() && texel_bytes() == sizeof(uint16_t)) record.depth_step = 1.0f / 65535.0f;
+  const std::vector<shared::MapImage>& images = frame->map_images(settings.store).layout().images;
+  std::copy(images.begin(), images.end(), block.images.begin());
   block.caster_shape = scene::tree_shape(frame->scene.caster_slots());
   block.light_shape = scene::tree_shape(frame->scene.light_slots());
 }
@@ -313,8 +353,18 @@ void ShadowSystem::State::write_sets(FrameSlot& slot, const CameraDesc& camera) 
   write(slot.frame_set, 0, 0, {VK_NULL_HANDLE, camera.depth, camera.depth_layout}, kSampled);
   if (camera.normal) write(slot.frame_set, 1, 0, {VK_NULL_HANDLE, camera.normal, camera.normal_layout}, kSampled);
   write(slot.host_set, 0, 0, {VK_NULL_HANDLE, frame->store.atlas().view(), kDepthRead}, kSampled);
-  for (uint32_t i = 0; i < frame->images.images().size(); ++i)
-    write(slot.host_set, 1, i, {VK_NULL_HANDLE, frame->images.images()[i].view(), kDepthRead}, kSampled);
+  // All elements, so that none names an image that is gone.
+  const std::vector<gpu::Image>& images = frame->map_images(settings.store).images();
+  for (uint32_t i = 0; !images.empty() && i < shared::MaxMapImages; ++i) {
+    const gpu::Image& image = images[std::min<size_t>(i, images.size() - 1)];
+    if (image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT) {
+      write(slot.host_set, 1, i, {VK_NULL_HANDLE, image.view(), kDepthRead}, kSampled);
+    } else {
+      write(slot.host_set, 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, kSampled);
+      write(slot.frame_set, 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    }
+  }
+
   for (const uint32_t mask : frame->scene.new_masks()) {
     const auto& entry = frame->scene.masks().at(mask);
     const VkDescriptorImageInfo image{entry.sampler ? entry.sampler : mask_sampler, entry.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};

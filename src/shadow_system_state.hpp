@@ -15,6 +15,7 @@ struct FrameSlot {
   gpu::Uploader uploader;
   gpu::FrameTimers timers;
   gpu::Buffer statistics;           // readback: FrameReport, then a word a light slot
+  gpu::Buffer page_requests;        // readback, hardware sparse: SparseRequests, then pages
   VkDescriptorSet frame_set = VK_NULL_HANDLE, host_set = VK_NULL_HANDLE;
   uint64_t serial = 0;              // 0: never used
   uint32_t light_slots = 0;
@@ -45,9 +46,13 @@ struct ShadowSystem::State {
   Result<void> reserve_virtual_maps(const FrameDesc&);
   Result<void> reserve_page_pool(const FrameDesc&);
   Result<void> reserve_physical_pool(const FrameDesc&);
+  Result<void> reserve_sparse(FrameSlot&, const FrameDesc&);
+  void lay_out_images(const FrameSettings&, std::vector<uint32_t>& changed);
   uint32_t shader_store() const;
   bool has_virtual_maps() const { return settings.store != Store::fixed_cubes; }
-  uint64_t texel_bytes() const { return settings.store == Store::physical_pool ? sizeof(uint16_t) : sizeof(uint32_t); }
+  uint64_t texel_bytes() const;
+  /// Descriptors of images that shaders write.
+  uint32_t storage_images() const { return settings.store == Store::hardware_sparse ? shared::MaxMapImages : 0; }
   uint64_t budget_bytes() const { return uint64_t(settings.budget_mib) << 20; }
   uint64_t most_caster_pairs() const;
   uint32_t caster_capacity() const;
@@ -74,7 +79,9 @@ struct ShadowSystem::State {
   store::AtlasLayout layout;        // fixed cubes
   uint32_t large_triangles = 1u << 17;  // page pool: room in the queue, grown from what frames report
   uint32_t views = 0;               // of all lights
-  store::ImageLayout image_layout;  // stores of images
+  store::ImageLayout image_layout;  // physical pool
+  store::SparseLayout sparse_layout;
+  bool pages_bound = false;         // in the frame that is recorded
   maps::Maps::Sizes map_sizes;      // virtual shadow maps: grown from what frames report
   std::array<uint32_t, 2> laid_out_for{};   // min and max resolution
   std::vector<LightStatus> without_map;

@@ -50,6 +50,10 @@ void add_counts(Json& document, const FrameReport& report) {
   document["triangles_drawn"] = statistics.triangles_drawn;
   document["shadow_memory_bytes"] = statistics.shadow_memory_bytes;
   document["table_memory_bytes"] = statistics.table_memory_bytes;
+  document["bytes_read_back"] = statistics.bytes_read_back;
+  document["pages_bound"] = statistics.pages_bound;
+  document["pages_unbound"] = statistics.pages_unbound;
+  document["bind_ms"] = statistics.bind_ms;
   document["unbacked_taps"] = statistics.unbacked_taps;
   document["unmarked_taps"] = statistics.unmarked_taps;
   document["overflows"] = statistics.overflows;

@@ -43,6 +43,13 @@ struct FrameDesc {
   VkPipelineStageFlags2 consumer_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 };
 
+/// Store::hardware_sparse: what ShadowSystem::bind_pages works with.
+struct PageBinding {
+  VkQueue queue = VK_NULL_HANDLE;          ///< Of DeviceDesc::queue_family, with VK_QUEUE_SPARSE_BINDING_BIT; nobody else submits to it meanwhile.
+  VkFence requests = VK_NULL_HANDLE;       ///< Of the submission that holds record_requests: waited for, not reset. VK_NULL_HANDLE: it has finished.
+  VkSemaphore bound = VK_NULL_HANDLE;      ///< Binary, signalled once pages are bound; the submission of record_shadows waits for it. VK_NULL_HANDLE: the call waits.
+};
+
 /// What a shading shader needs. Valid from record_shadows of a frame until record_scene of the next.
 struct ShaderInterface {
   VkDeviceAddress frame = 0;               ///< For umbrage_frame() in shaders/umbrage.glsl.

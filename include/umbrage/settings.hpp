@@ -21,6 +21,13 @@ enum class Store : uint8_t {
   fixed_cubes,  ///< One map per light, all of one resolution, in a depth atlas: the baseline of today's engines.
   page_pool,    ///< Virtual maps in a software page table over one pool, allocated on the device.
   physical_pool,///< O14: each map takes the next free one of a fixed set of D16 cube maps in resolution classes. Needs Capabilities::vertex_layer.
+  hardware_sparse,  ///< O13: sparse images, whose pages the host binds as lookups need them (ShadowSystem::bind_pages). Needs Capabilities::sparse_residency.
+};
+/// How Store::hardware_sparse keeps depth.
+enum class SparseTexels : uint8_t {
+  automatic,    ///< depth16 where the device can, else words.
+  words,        ///< 32-bit keys in storage images, written by atomics of fragments.
+  depth16,      ///< O13: D16 attachments. Needs Capabilities::vertex_layer, and a driver whose sparse depth attachments work.
 };
 enum class MapLayout : uint8_t {
   exact,        ///< O8: up to maps_per_light maps per light, each as fine as its finest request, rounded up to whole pages.
@@ -58,6 +65,7 @@ enum class Writer : uint8_t {
 struct StaticSettings {
   uint32_t frames_in_flight = 2;             ///< 1…4.
   Store store = Store::page_pool;
+  SparseTexels sparse_texels = SparseTexels::automatic;
   uint32_t budget_mib = 256;                 ///< Depth texels, 4…16384. Tables are reported apart.
   uint32_t batch_triangles = 128;            ///< O4: at most this many a batch, 32…1024.
   uint32_t max_cluster_light_pairs = 1 << 20;///< First size of the list; it grows to what the frames need.

@@ -23,7 +23,7 @@ struct Statistics {
   uint64_t cluster_light_pairs = 0;
   uint32_t shadow_maps = 0;             ///< Maps in use (a light has one with fixed-cubes).
   uint32_t shadow_views = 0;            ///< Their faces.
-  uint64_t pages_requested = 0;         ///< Page pool: marked at the resolutions asked for.
+  uint64_t pages_requested = 0;         ///< Page pool, hardware sparse: marked at the resolutions asked for.
   uint64_t pages_resident = 0;          ///< That have memory, at the resolutions there was room for.
   uint64_t pages_rendered = 0;          ///< Drawn this frame.
   uint64_t texels_requested = 0;        ///< Of pages_requested.
@@ -39,6 +39,10 @@ struct Statistics {
   uint64_t table_memory_bytes = 0;      ///< Everything else on the device that the system holds.
   uint64_t overflows = 0;               ///< Lists that were too short this frame, each handled as its degradation says.
   uint32_t lights_degraded = 0;
+  uint64_t bytes_read_back = 0;         ///< That steered the frame: the list of pages to bind (O18). 0 with every store but hardware_sparse.
+  uint32_t pages_bound = 0;             ///< Hardware sparse: newly, by bind_pages;
+  uint32_t pages_unbound = 0;           ///< and given up.
+  double bind_ms = 0;                   ///< CPU time of bind_pages, its waiting included.
   double cpu_record_ms = 0;             ///< begin_frame + record_scene + record_shadows.
 };
 

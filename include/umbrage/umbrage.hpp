@@ -53,6 +53,15 @@ class ShadowSystem {
   void record_scene(VkCommandBuffer);
   /// After depth (and normals) are visible to compute shaders: clusters, lights, shadow maps. Never fails.
   void record_shadows(VkCommandBuffer);
+
+  /// Store::hardware_sparse: a host must bind pages between requests and raster. Then record_requests comes before record_shadows,
+  /// in a submission of its own, and bind_pages between the two: the only call of the library that waits for the device.
+  bool binds_pages() const;
+  /// After depth, as record_shadows: clusters, lights, maps, and which of their pages lookups touch. Never fails.
+  void record_requests(VkCommandBuffer);
+  /// Binds the pages that were asked for and unbinds others. Errors (out_of_memory, device_lost, vulkan, invalid_argument): the frame's
+  /// shadows cannot be recorded; begin the next one.
+  Result<void> bind_pages(const PageBinding&);
   ShaderInterface shader_interface(CameraId) const;
   /// For UMBRAGE_STORE in the shader: which code lookups need.
   uint32_t shader_store() const;

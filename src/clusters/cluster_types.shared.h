@@ -80,6 +80,8 @@ UMB_ASSERT_SIZE(FrameRecord, 400);
 UMB_CONST uint StoreAtlas = 0u;
 UMB_CONST uint StorePool = 1u;
 UMB_CONST uint StoreImages = 2u;      // whole maps in images of D16 depth
+UMB_CONST uint StoreSparseWords = 3u; // pages of sparse images, depth keys
+UMB_CONST uint StoreSparseDepth = 4u; // pages of sparse images, D16 depth
 
 // --- Camera ---------------------------------------------------------------------------------------------------------
 

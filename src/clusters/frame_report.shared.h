@@ -36,7 +36,7 @@ struct FrameCounters {
   uint fitted;               // 1: they fit
   uint lights_shifted;       // lights that are coarser than they asked
   uint large_triangles;      // of the round with most that the page rasteriser would queue
-  uint pad;
+  uint pages_listed;         // hardware sparse: for the host to bind
 };
 UMB_ASSERT_SIZE(FrameCounters, 192);
 

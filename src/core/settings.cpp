@@ -27,7 +27,8 @@ constexpr std::array<Choice, 2> kBounds{{{"implicit_cell", 0}, {"explicit_bits",
 constexpr std::array<Choice, 2> kAssignment{{{"hierarchy", 0}, {"brute_force", 1}}};
 constexpr std::array<Choice, 5> kCulling{{{"light_volume", 0}, {"view_mask", 1}, {"projection_map", 2}, {"projection_map_depth", 3}, {"receiver_grid", 4}}};
 constexpr std::array<Choice, 5> kWriter{{{"automatic", 0}, {"traditional", 1}, {"multi_draw", 2}, {"compute", 3}, {"fragments", 4}}};
-constexpr std::array<Choice, 3> kStore{{{"fixed_cubes", 0}, {"page_pool", 1}, {"physical_pool", 2}}};
+constexpr std::array<Choice, 4> kStore{{{"fixed_cubes", 0}, {"page_pool", 1}, {"physical_pool", 2}, {"hardware_sparse", 3}}};
+constexpr std::array<Choice, 3> kSparseTexels{{{"automatic", 0}, {"words", 1}, {"depth16", 2}}};
 constexpr std::array<Choice, 2> kLayout{{{"exact", 0}, {"levels", 1}}};
 constexpr std::array<Choice, 2> kResolution{{{"paper", 0}, {"corrected", 1}}};
 constexpr std::array<Choice, 2> kBuckets{{{"logarithmic", 0}, {"linear", 1}}};
@@ -37,7 +38,7 @@ constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
   [](const Settings& s) { return static_cast<uint32_t>(s.path); },                         \
       [](Settings& s, uint32_t v) { s.path = static_cast<decltype(s.path)>(v); }
 
-const std::array<Field, 20> kFields{{
+const std::array<Field, 21> kFields{{
     {{"cluster_bounds", "implicit_cell|explicit_bits", "bounds of a cluster: its cell, or tight ones from three 10-bit number lines (O9)"},
      UMB_FIELD(frame.cluster_bounds), kBounds},
     {{"light_assignment", "hierarchy|brute_force", "lights per cluster through the 32-way light tree, or every pair tested"},
@@ -48,8 +49,11 @@ const std::array<Field, 20> kFields{{
     {{"writer", "automatic|traditional|multi_draw|compute|fragments",
       "fixed cubes: a render pass per view or one multi-draw; page pool: compute shaders or an atomic a fragment"},
      UMB_FIELD(frame.writer), kWriter},
-    {{"store", "fixed_cubes|page_pool|physical_pool", "one map per light in an atlas; or virtual maps in a pool of pages, or of whole cube maps (O14)"},
+    {{"store", "fixed_cubes|page_pool|physical_pool|hardware_sparse",
+      "one map per light in an atlas; or virtual maps in a pool of pages, of whole cube maps (O14), or in sparse images (O13)"},
      UMB_FIELD(fixed.store), kStore},
+    {{"sparse_texels", "automatic|words|depth16", "hardware_sparse: D16 attachments where the device can, or 32-bit words in storage images"},
+     UMB_FIELD(fixed.sparse_texels), kSparseTexels},
     {{"layout", "exact|levels", "maps as fine as asked and rounded up to pages (O8), or powers of two"}, UMB_FIELD(frame.layout), kLayout},
     {{"resolution", "paper|corrected", "texels a cluster asks for: O2 as printed, or texels that match pixels (E2, E3)"},
      UMB_FIELD(frame.resolution), kResolution},
@@ -124,7 +128,7 @@ Settings stored(Store store) {
 constexpr auto kCell = ClusterBounds::implicit_cell, kTight = ClusterBounds::explicit_bits;
 constexpr auto kPmcd = CasterCulling::projection_map_depth;
 
-const std::array<Preset, 17> kPresets{{
+const std::array<Preset, 18> kPresets{{
     {"default", "virtual maps in levels, texels that match pixels, culled on the receiver grid", Settings{}},
     {"fixed-cubes", "one cube map per light, one resolution for all that fits the budget, every face gets every batch in range", fixed_cubes()},
     {"naive", "the paper's baseline: matched resolution, every batch in the light's sphere to all six faces", paper(CasterCulling::light_volume, kCell)},
@@ -142,6 +146,7 @@ const std::array<Preset, 17> kPresets{{
     {"u4", "PMCD-EB with every resolution quartered", paper(kPmcd, kTight, 4, 4)},
     {"PMCD-EB-physical", "PMCD-EB in the paper's fallback: a fixed set of whole cube maps, the next free one of the closest size (O14)",
      stored(Store::physical_pool)},
+    {"PMCD-EB-sparse", "PMCD-EB in hardware sparse images: only pages that lookups touch have memory, bound by the host (O13)", stored(Store::hardware_sparse)},
     {"default-u2", "default with every resolution halved", [] { Settings s; s.frame.undersampling = 2; return s; }()},
 }};
 }  // namespace

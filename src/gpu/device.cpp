@@ -49,8 +49,10 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceDesc& desc) {
   if (const char* missing = vk.load_device(desc.device, desc.enabled.debug_utils, desc.enabled.mesh_shader))
     return Error{ErrorCode::unsupported, std::string("the device does not offer ") + missing};
 
-  VkPhysicalDeviceProperties properties;
-  vk.vkGetPhysicalDeviceProperties(desc.physical_device, &properties);
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+  VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+  vk.vkGetPhysicalDeviceProperties2(desc.physical_device, &all);
+  const VkPhysicalDeviceProperties& properties = all.properties;
   vk.vkGetPhysicalDeviceMemoryProperties(desc.physical_device, &device->memory_);
   uint32_t family_count = 0;
   vk.vkGetPhysicalDeviceQueueFamilyProperties(desc.physical_device, &family_count, nullptr);
@@ -64,10 +66,13 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceDesc& desc) {
     return Error{ErrorCode::unsupported, "DeviceDesc: queue_family lacks graphics or compute"};
 
   device->name_ = properties.deviceName;
+  device->driver_id_ = driver.driverID;
+  device->binds_sparse_ = (families[desc.queue_family].queueFlags & VK_QUEUE_SPARSE_BINDING_BIT) != 0;
   Limits& limits = device->limits_;
   limits.min_storage_alignment = std::max<VkDeviceSize>(properties.limits.minStorageBufferOffsetAlignment, 16);
   limits.max_image_side = std::min(properties.limits.maxImageDimension2D,
                                    std::min(properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight));
+  limits.sparse_address_bytes = properties.limits.sparseAddressSpaceSize;
   limits.max_image_layers = std::min(properties.limits.maxImageArrayLayers, properties.limits.maxFramebufferLayers);
   limits.max_draw_indirect_count = properties.limits.maxDrawIndirectCount;
   if (families[desc.queue_family].timestampValidBits > 0) limits.timestamp_period_ns = properties.limits.timestampPeriod;
@@ -82,6 +87,27 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceDesc& desc) {
 
 Device::~Device() {
   if (pipeline_cache_) functions_.vkDestroyPipelineCache(desc_.device, pipeline_cache_, desc_.allocation_callbacks);
+}
+
+std::optional<VkExtent2D> sparse_page(const Functions& vk, VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage) {
+  uint32_t count = 0;
+  const auto ask = [&](VkSparseImageFormatProperties* out) {
+    vk.vkGetPhysicalDeviceSparseImageFormatProperties(physical, format, VK_IMAGE_TYPE_2D, VK_SAMPLE_COUNT_1_BIT, usage, VK_IMAGE_TILING_OPTIMAL, &count, out);
+  };
+  ask(nullptr);
+  std::vector<VkSparseImageFormatProperties> parts(count);
+  ask(parts.data());
+  for (const VkSparseImageFormatProperties& part : parts)
+    if ((part.aspectMask & (VK_IMAGE_ASPECT_COLOR_BIT | VK_IMAGE_ASPECT_DEPTH_BIT)) != 0)
+      return VkExtent2D{part.imageGranularity.width, part.imageGranularity.height};
+  return std::nullopt;
+}
+
+VkImageFormatProperties Device::sparse_image_limits(VkFormat format, VkImageUsageFlags usage) const {
+  VkImageFormatProperties limits{};
+  const VkImageCreateFlags flags = VK_IMAGE_CREATE_SPARSE_BINDING_BIT | VK_IMAGE_CREATE_SPARSE_RESIDENCY_BIT;
+  const VkResult result = functions_.vkGetPhysicalDeviceImageFormatProperties(desc_.physical_device, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &limits);
+  return result == VK_SUCCESS ? limits : VkImageFormatProperties{};
 }
 
 int Device::memory_type(uint32_t allowed, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred) const {

@@ -2,6 +2,8 @@
 #pragma once
 #include <vulkan/vulkan_core.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace umbrage::gpu {
 Error vulkan_error(VkResult, const char* call, std::string_view what);
 const char* result_name(VkResult);
 
+/// Texels of a page of sparse 2D images, if the device has such images.
+std::optional<VkExtent2D> sparse_page(const Functions&, VkPhysicalDevice, VkFormat, VkImageUsageFlags);
+
 /// Sets the features of those capabilities that need no extension.
 void enable_capabilities(const Capabilities& wanted, Requirements&);
 
@@ -22,6 +27,7 @@ struct Limits {
   VkDeviceSize min_storage_alignment = 16;
   uint32_t max_image_side = 4096, max_image_layers = 256;
   uint32_t max_draw_indirect_count = 1;
+  VkDeviceSize sparse_address_bytes = 0;
   float timestamp_period_ns = 0;  ///< 0: the queue family has no timestamps.
 };
 
@@ -37,6 +43,14 @@ class Device {
   const VkAllocationCallbacks* callbacks() const { return desc_.allocation_callbacks; }
   const Limits& limits() const { return limits_; }
   const std::string& name() const { return name_; }
+  VkDriverId driver_id() const { return driver_id_; }
+  /// Whether the queue family binds sparse memory.
+  bool binds_sparse() const { return binds_sparse_; }
+  std::optional<VkExtent2D> sparse_page(VkFormat format, VkImageUsageFlags usage) const {
+    return gpu::sparse_page(functions_, desc_.physical_device, format, usage);
+  }
+  /// Bytes and layers that one sparse image may have; zeros where there are none.
+  VkImageFormatProperties sparse_image_limits(VkFormat, VkImageUsageFlags) const;
   const Capabilities& capabilities() const { return desc_.enabled; }
   VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
   /// Index of a memory type of `allowed` with all of `wanted`, preferring `preferred` too; -1 = none.
@@ -50,6 +64,8 @@ class Device {
   DeviceDesc desc_;
   Limits limits_;
   std::string name_;
+  VkDriverId driver_id_ = VK_DRIVER_ID_MAX_ENUM;
+  bool binds_sparse_ = false;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
 };

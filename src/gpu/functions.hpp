@@ -7,7 +7,8 @@ namespace umbrage::gpu {
 #define UMB_INSTANCE_FUNCTIONS(X)                                                                                   \
   X(vkGetDeviceProcAddr) X(vkDestroyInstance) X(vkEnumeratePhysicalDevices) X(vkGetPhysicalDeviceProperties)       \
   X(vkGetPhysicalDeviceProperties2) X(vkGetPhysicalDeviceFeatures2) X(vkGetPhysicalDeviceMemoryProperties)         \
-  X(vkGetPhysicalDeviceQueueFamilyProperties) X(vkEnumerateDeviceExtensionProperties) X(vkCreateDevice)
+  X(vkGetPhysicalDeviceQueueFamilyProperties) X(vkGetPhysicalDeviceSparseImageFormatProperties)                     \
+  X(vkGetPhysicalDeviceImageFormatProperties) X(vkEnumerateDeviceExtensionProperties) X(vkCreateDevice)
 
 #define UMB_DEVICE_FUNCTIONS(X)                                                                                     \
   X(vkDestroyDevice) X(vkGetDeviceQueue) X(vkDeviceWaitIdle) X(vkAllocateMemory) X(vkFreeMemory) X(vkMapMemory)    \
@@ -23,7 +24,9 @@ namespace umbrage::gpu {
   X(vkCmdPushConstants) X(vkCmdDispatch) X(vkCmdDispatchIndirect) X(vkCmdCopyBuffer) X(vkCmdFillBuffer)            \
   X(vkCmdBeginRendering) X(vkCmdEndRendering) X(vkCmdSetViewport) X(vkCmdSetScissor) X(vkCmdBindIndexBuffer)       \
   X(vkCmdBindVertexBuffers) X(vkCmdDrawIndexedIndirectCount) X(vkCmdCopyBufferToImage) X(vkCmdSetCullMode)         \
-  X(vkCmdSetFrontFace) X(vkCmdDrawIndirectCount)
+  X(vkCmdSetFrontFace) X(vkCmdDrawIndirectCount)                                                                    \
+  X(vkGetImageSparseMemoryRequirements) X(vkQueueBindSparse) X(vkCreateFence) X(vkDestroyFence) X(vkWaitForFences) \
+  X(vkResetFences)
 
 /// Loaded only where VK_EXT_mesh_shader is enabled.
 #define UMB_MESH_FUNCTIONS(X) X(vkCmdDrawMeshTasksIndirectEXT)

@@ -44,11 +44,10 @@ AccessInfo info_of(Access access) {
 }
 
 bool is_visible(const SyncState& state, const AccessInfo& now) {
-  for (uint32_t i = 0; i < state.visible_count; ++i) {
-    const SyncState::Visible& to = state.visible[i];
-    if ((to.stages & now.stages) == now.stages && (to.access & now.access) == now.access) return true;
-  }
-  return false;
+  VkPipelineStageFlags2 stages = 0;
+  for (uint32_t i = 0; i < state.visible_count; ++i)
+    if ((state.visible[i].access & now.access) == now.access) stages |= state.visible[i].stages;
+  return (stages & now.stages) == now.stages;
 }
 
 /// The barrier that an access needs, and the state after it. A change of layout is a write that the access follows.

@@ -53,20 +53,35 @@ void list_features(Table& table, const Supported& has) {
 #undef UMB_NEED
 }
 
-void list_capabilities(Table& table, const Supported& has, const std::vector<VkExtensionProperties>& extensions, const StaticSettings& settings) {
+/// What a store needs of the optional features.
+Capabilities needs(const StaticSettings& settings) {
+  const bool sparse = settings.store == Store::hardware_sparse;
+  return {.vertex_layer = settings.store == Store::physical_pool || (sparse && settings.sparse_texels == SparseTexels::depth16), .sparse_residency = sparse};
+}
+
+void require_sparse_images(Table& table, const gpu::Functions& vk, VkPhysicalDevice physical, SparseTexels texels) {
+  constexpr std::string_view purpose = "hardware sparse store, O13";
+  const bool words = gpu::sparse_page(vk, physical, VK_FORMAT_R32_UINT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT).has_value();
+  const bool depth = gpu::sparse_page(vk, physical, VK_FORMAT_D16_UNORM, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT).has_value();
+  if (texels == SparseTexels::words) table.require(words, "sparse R32_UINT storage images", purpose);
+  if (texels == SparseTexels::depth16) table.require(depth, "sparse D16_UNORM depth attachments", purpose);
+  if (texels == SparseTexels::automatic) table.require(words || depth, "sparse R32_UINT storage images or D16_UNORM depth attachments", purpose);
+}
+
+void list_capabilities(Table& table, const Supported& has, const std::vector<VkExtensionProperties>& extensions, const Capabilities& wanted) {
   const auto offers = [&](const char* name) {
     return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
   };
   Capabilities& can = table.out.available;
   table.capability(can.geometry_shader, has.base.features.geometryShader, "geometryShader", "layered rendering, R2");
   table.capability(can.vertex_layer, has.v12.shaderOutputLayer, "shaderOutputLayer", "physical pool, O12; layered rendering from the vertex shader",
-                   settings.store == Store::physical_pool);
+                   wanted.vertex_layer);
   table.capability(can.multiview, has.v11.multiview, "multiview", "layered rendering by multiview");
   table.capability(can.mesh_shader, offers("VK_EXT_mesh_shader"), "VK_EXT_mesh_shader", "layered rendering by mesh shaders");
   table.capability(can.sparse_residency, has.base.features.sparseBinding && has.base.features.sparseResidencyImage2D &&
                                              has.base.features.shaderStorageImageArrayDynamicIndexing &&
                                              has.v12.shaderStorageImageArrayNonUniformIndexing,
-                   "sparseResidencyImage2D", "hardware sparse store, O13");
+                   "sparseResidencyImage2D", "hardware sparse store, O13", wanted.sparse_residency);
   table.capability(can.shader_residency, has.base.features.shaderResourceResidency, "shaderResourceResidency",
                    "hardware sparse store: what is not bound is not written, O15");
   table.capability(can.ray_query, offers("VK_KHR_ray_query"), "VK_KHR_ray_query", "ray-traced shadows");
@@ -136,8 +151,10 @@ Result<Requirements> requirements(VkInstance instance, VkPhysicalDevice physical
   table.require(device.limits.maxComputeWorkGroupInvocations >= 256, "maxComputeWorkGroupInvocations >= 256", "traversal");
   table.require(device.limits.maxClipDistances >= 4, "maxClipDistances >= 4", "views side by side in one depth image");
   table.require(device.limits.maxDrawIndirectCount >= (1u << 16), "maxDrawIndirectCount >= 65536", "one draw for all shadow casters");
-  list_capabilities(table, has, extensions, settings);
-  gpu::enable_capabilities(settings.store == Store::physical_pool ? Capabilities{.vertex_layer = true} : Capabilities{}, out);
+  const Capabilities wanted = needs(settings);
+  list_capabilities(table, has, extensions, wanted);
+  if (settings.store == Store::hardware_sparse) require_sparse_images(table, vk, physical, settings.sparse_texels);
+  gpu::enable_capabilities(wanted, out);
   std::stable_partition(out.checks.begin(), out.checks.end(), [](const RequirementCheck& check) { return check.required; });
   return out;
 }

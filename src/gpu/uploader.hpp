@@ -11,14 +11,15 @@ namespace umbrage::gpu {
 /// What frames in flight may still read; freed once those have retired.
 class RetireQueue {
  public:
-  void retire(Buffer&& buffer, uint64_t serial) { entries_.push_back({std::move(buffer), {}, serial}); }
-  void retire(Image&& image, uint64_t serial) { entries_.push_back({{}, std::move(image), serial}); }
+  void retire(Buffer&& buffer, uint64_t serial) { entries_.push_back({std::move(buffer), {}, {}, serial}); }
+  void retire(Image&& image, uint64_t serial) { entries_.push_back({{}, std::move(image), {}, serial}); }
+  void retire(Allocation&& memory, uint64_t serial) { entries_.push_back({{}, {}, std::move(memory), serial}); }
   void collect(uint64_t completed_serial) {
     std::erase_if(entries_, [&](const Entry& entry) { return entry.serial <= completed_serial; });
   }
 
  private:
-  struct Entry { Buffer buffer; Image image; uint64_t serial; };
+  struct Entry { Buffer buffer; Image image; Allocation memory; uint64_t serial; };
   std::vector<Entry> entries_;
 };
 

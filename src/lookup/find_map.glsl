@@ -1,5 +1,16 @@
 // Which map answers for a cluster/light pair; a part of umbrage.glsl.
 
+/// Where the system keeps its maps. Without the set of images that can only be the page pool.
+UMB_FN uint store_of(Frame frame) {
+#if defined(UMBRAGE_STORE)
+  return UMBRAGE_STORE;
+#elif defined(UMBRAGE_SET)
+  return UmbrageFrames(frame.address).v[0].store;
+#else
+  return StorePool;
+#endif
+}
+
 /// A light's map as the taps need it.
 struct Map {
   uint first_view;

@@ -4,67 +4,7 @@
 // the receiver's tangent plane, so that a flat receiver cannot shadow itself at any slope. What remains to be biased away is
 // the curvature within a tap's reach, in texels: the plane is moved NormalOffset texels towards the light's side.
 
-/// Where the last tap was found: neighbours mostly share its page.
-struct TapPage {
-  uint key;          // view and page
-  uint first;        // texel in the pool; NoIndex: the page is not there
-  uint missing;      // taps without a page
-};
-
-/// First texel in the pool of a view's page; NoIndex for one that nobody marked.
-UMB_FN uint find_page(Frame frame, Map map, uint view, uint page) {
-  UmbrageFrames f = UmbrageFrames(frame.address);
-  uint word = map.first_word + view * map.words + page / 32u;
-  uint bits = UmbrageUints(f.v[0].page_bits).v[word];
-  uint bit = page % 32u;
-  return (bits & (1u << bit)) != 0u ? page_texel(bits, UmbrageUints(f.v[0].page_first).v[word], bit, map.resolution) : NoIndex;
-}
-
-UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {
-#ifdef UMBRAGE_SET
-  if (store_of(frame) == StoreAtlas) {
-    uvec2 tile = atlas_tile(map.first_view + view, UmbrageFrames(frame.address).v[0].atlas_columns, UmbrageFrames(frame.address).v[0].atlas_resolution);
-    return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
-  }
-  if (store_of(frame) == StoreImages) {
-    if ((map.faces >> view & 1u) != 0u) return texelFetch(umbrage_images[nonuniformEXT(map.image)], ivec3(texel, map.layer + view), 0).x;
-    ++last.missing;
-    return 0.0f;
-  }
-#endif
-  uint page = (texel.y / PageSide) * map.pages + texel.x / PageSide;
-  uint key = view << 16u | page;
-  if (key != last.key) {
-    last.key = key;
-    last.first = find_page(frame, map, view, page);
-  }
-  if (last.first == NoIndex) {
-    ++last.missing;
-    return 0.0f;
-  }
-  return uintBitsToFloat(UmbrageUints(UmbrageFrames(frame.address).v[0].pool).v[last.first + texel_in_page(texel, map.resolution)]);
-}
-
-/// The pages of 3×3 texels: one, or two side by side, or four.
-struct TapPages {
-  uvec4 first;       // in the pool; left and right above, then below; NoIndex: not there
-  uvec2 split;       // texels from here on lie in the right or the lower pages
-};
-
-UMB_FN TapPages pages_around(Frame frame, Map map, uint view, uvec2 middle) {
-  uvec2 begin = (middle - 1u) / PageSide;
-  uvec2 end = (middle + 1u) / PageSide;
-  uint page = begin.y * map.pages + begin.x;
-  TapPages around;
-  around.first = uvec4(find_page(frame, map, view, page));
-  around.split = end * PageSide;
-  if (begin.x != end.x) around.first.yw = uvec2(find_page(frame, map, view, page + 1u));
-  if (begin.y != end.y) {
-    around.first.zw = uvec2(find_page(frame, map, view, page + map.pages));
-    if (begin.x != end.x) around.first.w = find_page(frame, map, view, page + map.pages + 1u);
-  }
-  return around;
-}
+#include "lookup/stored_depth.glsl"
 
 /// How far the receiver's plane is moved: along the way to the light by eight texels at most, and by a twentieth of it, or
 /// grazing planes would lose what stands on them.
@@ -88,13 +28,11 @@ UMB_FN float tap_weight(vec2 fraction, int x, int y) {
   return (x < 0 ? 1.0f - fraction.x : x > 0 ? fraction.x : 1.0f) * (y < 0 ? 1.0f - fraction.y : y > 0 ? fraction.y : 1.0f);
 }
 
-/// From the page pool when all nine taps lie on the receiver's own face: everything in the face's frame, where a direction is
+/// From pages when all nine taps lie on the receiver's own face: everything in the face's frame, where a direction is
 /// (s, t, 1). The same comparison as add_tap's with its divisions multiplied out.
 UMB_FN float visibility_face(Frame frame, Map map, uint face, vec3 relative, vec3 normal, vec2 base, vec2 fraction, inout TapPage last) {
   uvec2 middle = uvec2(round_to_int(base.x), round_to_int(base.y));
   TapPages pages = pages_around(frame, map, face, middle);
-  UmbrageUints pool = UmbrageUints(UmbrageFrames(frame.address).v[0].pool);
-  uint page_side = page_side_of(map.resolution);
   float side = 2.0f / float(map.resolution);
   float plane_distance = dot(normal, relative);
   float deepest = relative.z * (1.0f + TapDepthTexels * side);
@@ -106,7 +44,7 @@ UMB_FN float visibility_face(Frame frame, Map map, uint face, vec3 relative, vec
       uint column = middle.x + uint(x);
       uint page = column >= pages.split.x ? first.y : first.x;
       float stored = 0.0f;
-      if (page != NoIndex) stored = uintBitsToFloat(pool.v[page + (row % PageSide) * page_side + column % PageSide]);
+      if (page != NoIndex) stored = texel_of_page(frame, map, face, uvec2(column, row), page) - map.depth_step;
       else ++last.missing;
       vec3 direction = vec3((base + vec2(x, y) + 0.5f) * side - 1.0f, 1.0f);
       float square = dot(direction, direction);

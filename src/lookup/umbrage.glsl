@@ -40,6 +40,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer UmbrageTapCo
 #extension GL_EXT_nonuniform_qualifier : require
 layout(set = UMBRAGE_SET, binding = 0) uniform texture2D umbrage_atlas;
 layout(set = UMBRAGE_SET, binding = 1) uniform texture2DArray umbrage_images[MaxMapImages];
+layout(set = UMBRAGE_SET, binding = 2) uniform utexture2DArray umbrage_words[MaxMapImages];
 #endif
 
 // --- What a host sees -----------------------------------------------------------------------------------------------
@@ -66,14 +67,6 @@ struct Light {
 };
 
 Frame umbrage_frame(uint64_t address) { return Frame(address); }
-
-UMB_FN uint store_of(Frame frame) {
-#ifdef UMBRAGE_STORE
-  return UMBRAGE_STORE;
-#else
-  return UmbrageFrames(frame.address).v[0].store;
-#endif
-}
 
 UMB_FN Cluster cluster_of_cell(Frame frame, uvec2 tile, uint slice) {
   UmbrageFrames f = UmbrageFrames(frame.address);

@@ -35,7 +35,7 @@ UMB_FN uint exact_resolution(float resolution, uint block) {
   if (texels >= PageSide) return backed_resolution(texels, block);
   uint side = 1u << MinLevel;
   while (side < texels) side *= 2u;
-  return side;
+  return backed_resolution(side, block);   // 33 … 63 texels make 64
 }
 
 /// A map's place among its light's, finest first: its level, or its bucket of the histogram (O8, E8). `bit` numbers the

@@ -12,7 +12,13 @@ constexpr uint32_t kLayerItems = 16384;
 
 class LayerWriter {
  public:
-  static Result<LayerWriter> create(const gpu::PipelineFactory&, VkFormat);
+  /// How texels are written.
+  enum class Target : uint8_t {
+    depth16,         ///< By the depth test of D16 attachments.
+    words,           ///< By atomics of fragments, where the page bits allow it.
+    resident_words,  ///< The same, where the texel's residency code does (Capabilities::shader_residency).
+  };
+  static Result<LayerWriter> create(const gpu::PipelineFactory&, Target);
   Result<void> reserve(const gpu::Device&, gpu::Memory&, const store::ImageLayout&, std::vector<gpu::Buffer>& retired);
 
   struct Inputs {
@@ -25,6 +31,8 @@ class LayerWriter {
     const gpu::Buffer& counts;  ///< DrawCounts.
     uint32_t item_capacity;     ///< At most kLayerItems; of both kinds together no round has more.
     const store::MapImages& images;
+    const gpu::Buffer& page_bits;
+    uint32_t max_resolution;      ///< Of any map.
     VkDeviceAddress image_table;  ///< shared::MapImage, in `frame`.
   };
   /// Empties the layers that maps use.
@@ -33,6 +41,11 @@ class LayerWriter {
   void record(gpu::Recorder&, const Inputs&) const;
 
  private:
+  Result<void> create_for_attachments(const gpu::PipelineFactory&);
+  Result<void> create_for_words(const gpu::PipelineFactory&);
+  void record_word_clear(gpu::Recorder&, const Inputs&) const;
+  void list_draws(gpu::Recorder&, const Inputs&) const;
+  Target target_ = Target::depth16;
   gpu::Pipeline list_clears_, clear_, list_draws_, cast_[2];  // opaque, masked
   gpu::Buffer layers_, clears_, clear_counts_, instances_, commands_, draw_counts_;
 };

@@ -123,12 +123,14 @@ struct ListDrawsPush {       // list_page_draws
 };
 UMB_ASSERT_SIZE(ListDrawsPush, 88);
 
-struct CastPagePush {        // cast_page.vert, write_page.frag
+struct CastPagePush {        // cast_page.vert, write_page.frag, write_texel.glsl
   uint64_t frame;
   uint64_t batches;
   vec2 viewport_size;        // texels
+  uint image;                // write_texel.glsl
+  uint pad;
 };
-UMB_ASSERT_SIZE(CastPagePush, 24);
+UMB_ASSERT_SIZE(CastPagePush, 32);
 
 // --- Into images ------------------------------------------------------------------------------------------------------
 
@@ -157,6 +159,11 @@ struct ListLayersPush {      // list_layer_draws; of list_layer_clears what is m
   uint image_count;
 };
 UMB_ASSERT_SIZE(ListLayersPush, 96);
+
+struct ClearWordsPush {      // clear_words.comp
+  uint64_t frame;
+};
+UMB_ASSERT_SIZE(ClearWordsPush, 8);
 
 struct ClearLayersPush {     // clear_layers.vert
   uint64_t layers;

@@ -103,6 +103,7 @@ class Gpu {
   }
 
   const DeviceDesc& desc() const { return desc_; }
+  VkQueue queue() const { return queue_; }
   const gpu::Device& device() const { return *device_; }
   gpu::Memory& memory() { return *memory_; }
   const gpu::PipelineFactory& factory() const { return *factory_; }

@@ -75,14 +75,27 @@ FrameDesc SystemRig::describe(const FrameSettings& settings) {
   return {.serial = serial_, .completed_serial = serial_ - 1, .settings = settings, .cameras = cameras_};
 }
 
-void SystemRig::frame(const FrameSettings& settings, const std::function<void(VkCommandBuffer)>& after) {
-  const FrameDesc desc = describe(settings);
+void SystemRig::frame(const FrameSettings& settings, const std::function<void(VkCommandBuffer)>& after, VkPipelineStageFlags2 consumers) {
+  FrameDesc desc = describe(settings);
+  if (consumers) desc.consumer_stages = consumers;
   take(system_.begin_frame(desc));
-  gpu_.run([&](VkCommandBuffer commands) {
-    system_.record_scene(commands);
+  const auto record_rest = [&](VkCommandBuffer commands) {
     system_.record_shadows(commands);
     if (after) after(commands);
-  });
+  };
+  if (system_.binds_pages()) {
+    gpu_.run([&](VkCommandBuffer commands) {
+      system_.record_scene(commands);
+      system_.record_requests(commands);
+    });
+    take(system_.bind_pages({.queue = gpu_.queue()}));
+    gpu_.run(record_rest);
+  } else {
+    gpu_.run([&](VkCommandBuffer commands) {
+      system_.record_scene(commands);
+      record_rest(commands);
+    });
+  }
   system_.collect(desc.serial);
 }
 

@@ -27,7 +27,7 @@ TEST(MapImages, KeepToBudgetAndLimitsAndHaveAPlaceForAll) {
                                  .texels = budget_mib * kMiB / kTexelBytes,
                                  .most_side = 16384,
                                  .most_layers = most_layers};
-        if (views > least_room_of_images(demand, kTexelBytes).views) continue;
+        if (views > least_room_of_images(demand, kLeastMaps, kTexelBytes).views) continue;
         const ImageLayout layout = lay_out_images(demand);
         EXPECT_LE(texels_of(layout), demand.texels);
         EXPECT_EQ(texels_of(layout), layout.texels);
@@ -68,11 +68,11 @@ TEST(MapImages, AreAsFineAsTheBudgetAllows) {
 
 TEST(MapImages, LeaveLightsOutOnlyWhenTheSmallestMapsOfAllDoNotFit) {
   const ImageDemand demand{.texels = 4 * kMiB / kTexelBytes, .most_side = 16384, .most_layers = 2048};
-  const LeastRoom room = least_room_of_images(demand, kTexelBytes);
+  const LeastRoom room = least_room_of_images(demand, kLeastMaps, kTexelBytes);
   EXPECT_GE(room.views, 6u * 1024);
   EXPECT_EQ(room.bytes_per_view, 2u * 4 * 4 * kTexelBytes);
-  EXPECT_EQ(coarsest_side(static_cast<uint32_t>(room.views), demand.texels), 4u);
-  EXPECT_EQ(coarsest_side(6, demand.texels), 16u);
+  EXPECT_EQ(coarsest_side(coarsest_layers(room.views, kLeastMaps), demand.texels, 16), 4u);
+  EXPECT_EQ(coarsest_side(coarsest_layers(6, kLeastMaps), demand.texels, 16), 16u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Some layers of one of the images that maps lie in, into a buffer, texel by texel.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -18,9 +19,6 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uvec3 texel = gl_GlobalInvocationID;
   if (max(texel.x, texel.y) >= push.side) return;
-  float depth = 0.0;
-  // A constant index at a time: no feature is needed.
-  for (int i = 0; i < 24; ++i)
-    if (uint(i) == push.image) depth = texelFetch(images[i], ivec3(texel.xy, texel.z + push.first_layer), 0).x;
+  float depth = texelFetch(images[nonuniformEXT(push.image)], ivec3(texel.xy, texel.z + push.first_layer), 0).x;
   Texels(push.target).v[(texel.z * push.side + texel.y) * push.side + texel.x] = depth;
 }
