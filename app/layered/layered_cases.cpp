@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
 #include "host/gpu_timers.hpp"
 #include "layered/layer_images.hpp"

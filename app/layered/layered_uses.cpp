@@ -1,10 +1,12 @@
 // Matrices of the uses: Vulkan's clip space, y down, depth 0 near and 1 far.
 #include "layered/layered_uses.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
 namespace app {
 

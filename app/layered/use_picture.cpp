@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <optional>
 
 #include "host/descriptors.hpp"

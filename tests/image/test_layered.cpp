@@ -1,10 +1,12 @@
 // umbrage layered and info --recommend, as users run them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <tuple>
 
 #include <stb/stb_image.h>
 #include "program.hpp"

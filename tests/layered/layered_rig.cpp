@@ -1,6 +1,7 @@
 // Draws through the public interface alone.
 #include "layered_rig.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>

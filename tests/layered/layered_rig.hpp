@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <stdexcept>
 
 #include "host/textures.hpp"
 #include "layered/layer_images.hpp"

@@ -1,6 +1,8 @@
 // Where grouping pays: eight places with four views each, drawn at once, by groups, and with casters selected for each view.
 // Off by default; docs/layered-rendering.md quotes it.
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "host/gpu_timers.hpp"

@@ -1,4 +1,5 @@
 // In-shader culling (E11–E14) changes no texel of closed meshes seen from outside, and drops what it should.
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "layered_rig.hpp"

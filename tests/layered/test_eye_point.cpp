@@ -1,6 +1,7 @@
 // Eye points and windings recovered from any matrix, against how they were made and against projected triangles.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

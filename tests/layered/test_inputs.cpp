@@ -1,5 +1,7 @@
 // Wrong input, missing features, and what recording costs.
 #include <algorithm>
+#include <chrono>
+#include <limits>
 
 #include "layered_rig.hpp"
 #include "meshes.hpp"

@@ -1,6 +1,8 @@
 // Matrices of the uses (R6), each against what it is for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

@@ -1,4 +1,7 @@
 // Every writer draws the same layers: hardware writers bit by bit, compute within the class of hardware against compute.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "import/gltf_import.hpp"
