@@ -38,8 +38,7 @@ void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
 
 void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) {
   // Maps → the batches whose shadows their receivers can see (O5…O7) → depth.
-  const culling::MapCulling::Inputs cull{scene, block, counters, views.buffer(), maps.maps(), maps.projection(), maps.receiver_depth(),
-                                         clusters.used_lights(), caster_shape(), plan.settings.caster_culling};
+  const culling::MapCulling::Inputs cull = cull_inputs(plan);
   map_culling.record_count(recorder, cull);
   if (plan.store == Store::page_pool) record_pages(recorder, plan, cull);
   else record_layers(recorder, plan, cull);
@@ -48,9 +47,7 @@ void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) 
 void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
   for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
     map_culling.record_round(recorder, cull, round);
-    const raster::PageWriterInputs write{scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(),
-                                         map_culling.items(), map_culling.draw_counts(), map_culling.capacity(), &counters,
-                                         plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
+    const raster::PageWriterInputs write = page_inputs(plan);
     if (plan.settings.writer == Writer::fragments) {
       gpu::Scope scope(recorder, "raster fragments");
       page_fragments.record(recorder, write, plan.settings.max_resolution);
@@ -58,6 +55,16 @@ void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const c
       page_raster.record(recorder, write);
     }
   }
+}
+
+culling::MapCulling::Inputs Frame::cull_inputs(const FramePlan& plan) const {
+  return {scene, block, counters, views.buffer(), maps.maps(), maps.projection(), maps.receiver_depth(), clusters.used_lights(), caster_shape(),
+          plan.settings.caster_culling};
+}
+
+raster::PageWriterInputs Frame::page_inputs(const FramePlan& plan) const {
+  return {scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(), map_culling.items(), map_culling.draw_counts(),
+          map_culling.capacity(), &counters, plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
 }
 
 void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {

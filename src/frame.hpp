@@ -51,6 +51,9 @@ struct Frame {
 
   /// The images that maps lie in: none, those of the physical pool, or sparse ones.
   const store::MapImages& map_images(Store kind) const { return kind == Store::hardware_sparse ? sparse.images() : images; }
+  /// What the casters of the page pool are culled and drawn with.
+  culling::MapCulling::Inputs cull_inputs(const FramePlan&) const;
+  raster::PageWriterInputs page_inputs(const FramePlan&) const;
 
   VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }
   VkDeviceAddress image_table() const { return block.address() + offsetof(FrameBlock, images); }

@@ -99,7 +99,7 @@ struct ShadowSystem::State {
   gpu::HazardLog* hazard_log = nullptr;
 };
 
-/// A way in for tests.
+/// A way in for tests and oracles.
 struct SystemAccess {
   static ShadowSystem::State& state(ShadowSystem& system) { return *system.state_; }
 };

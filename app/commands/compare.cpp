@@ -130,11 +130,20 @@ Result<void> run_compare(const CompareOptions& options, Outputs& outputs) {
   progress.show("building the ray tracer");
   const auto tracer = reference::load_ray_tracer(session->scene(), session->pose());
   if (!tracer) return tracer.error();
+  const bool has_pages = session->settings().fixed.store == umbrage::Store::page_pool;
+  if (has_pages)
+    if (const auto marked = session->renderer().mark_lookups(); !marked) return marked.error();
   const auto report = compare_lights(*session, **tracer, progress);
   if (!report) return report.error();
   if (const auto written = write_run_outputs(*session, outputs, progress); !written) return written.error();
   Json document = stats_document(*session);
   add_report(document, *report, session->lights());
+  if (has_pages) {
+    const auto needed = session->renderer().read_needed_work();
+    if (!needed) return needed.error();
+    document["texels_needed"] = needed->texels;
+    document["triangles_needed"] = needed->triangles;
+  }
   progress.clear();
   return write_text(outputs, options.report, to_text(document));
 }

@@ -2,6 +2,7 @@
 #include "host/read_back.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace app {
 
@@ -19,6 +20,8 @@ constexpr uint32_t read_visibility[] =
 constexpr uint32_t tile = 8;
 constexpr uint32_t group_size = 64;
 constexpr VkDeviceSize visibility_chunk_bytes = VkDeviceSize{32} << 20;
+
+constexpr VkDeviceSize looked_up_offset = 64;   // the bits; the count of triangles comes first
 
 /// Bytes of one light in the shader's output: whole words.
 VkDeviceSize padded(uint32_t pixels) { return (VkDeviceSize{pixels} + 3) / 4 * 4; }
@@ -106,6 +109,7 @@ Result<void> ReadBack::visibility(GpuContext& context, PassContext& pass, uint32
   pass.push.output_band = band_px.empty() ? 0 : band_buffer_.address();
   pass.push.first = first;
   pass.push.count = count;
+  pass.push.looked_up = looked_up_.size() > 0 ? looked_up_.address() + looked_up_offset : 0;
   context.vk.vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_COMPUTE, visibility_.get());
   push_constants(context, pass.commands, pass.layout, pass.push);
   dispatch_items(context, pass.commands, groups(pixels, 4), group_size);
@@ -117,6 +121,31 @@ Result<void> ReadBack::visibility(GpuContext& context, PassContext& pass, uint32
       std::memcpy(band_px.data() + light * pixels, band_buffer_.mapped() + light * light_bytes, pixels);
   }
   return {};
+}
+
+Result<void> ReadBack::mark_lookups(const GpuContext& context, VkDeviceSize pool_bytes) {
+  const VkDeviceSize bytes = looked_up_offset + pool_bytes / sizeof(uint32_t) / 8;
+  if (auto reserved = reserve(context, looked_up_, bytes); !reserved) return reserved;
+  std::memset(looked_up_.mapped(), 0, bytes);
+  return {};
+}
+
+Result<NeededWork> ReadBack::needed(GpuContext& context, PassContext& pass, umbrage::NeededTriangles& triangles) {
+  memory_barrier(context, pass.commands, compute_write, compute_access);
+  if (auto recorded = triangles.record(pass.commands, looked_up_.address() + looked_up_offset, looked_up_.address()); !recorded)
+    return recorded.error();
+  memory_barrier(context, pass.commands, compute_write, host_read);
+  if (auto done = context.submit_and_wait(); !done) return done.error();
+  NeededWork needed;
+  uint32_t count = 0;
+  std::memcpy(&count, looked_up_.mapped(), sizeof(count));
+  needed.triangles = count;
+  for (VkDeviceSize at = looked_up_offset; at + sizeof(uint64_t) <= looked_up_.size(); at += sizeof(uint64_t)) {
+    uint64_t bits = 0;
+    std::memcpy(&bits, looked_up_.mapped() + at, sizeof(bits));
+    needed.texels += static_cast<uint64_t>(std::popcount(bits));
+  }
+  return needed;
 }
 
 }  // namespace app

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/gbuffer.hpp"
+#include "umbrage/needed_triangles.hpp"
 
 namespace app {
 
@@ -21,12 +22,18 @@ class ReadBack {
                                    std::span<uint8_t> visibility, std::span<uint8_t> band_px);
   static uint32_t max_visibility_lights(uint32_t pixels);
 
+  /// From now on visibility() marks the pool's texels that its lookups read.
+  umbrage::Result<void> mark_lookups(const GpuContext&, VkDeviceSize pool_bytes);
+  /// Those marked so far, and how many of the frame's triangles cover one. Precondition: mark_lookups.
+  umbrage::Result<NeededWork> needed(GpuContext&, PassContext&, umbrage::NeededTriangles&);
+
  private:
   umbrage::Result<void> reserve(const GpuContext&, DeviceBuffer&, VkDeviceSize bytes);
   umbrage::Result<const std::byte*> copy_image(GpuContext&, PassContext&, Target, VkDeviceSize bytes);
 
   Handle<VkPipeline> surface_, visibility_;
   DeviceBuffer buffer_, band_buffer_;  ///< Mapped; they grow to what was asked for.
+  DeviceBuffer looked_up_;             ///< Mapped: the count of triangles, padding, then a bit for each texel of the pool.
 };
 
 }  // namespace app

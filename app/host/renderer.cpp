@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "host/deform.hpp"
 #include "host/draw_list.hpp"
@@ -37,6 +38,8 @@ struct Renderer::State {
   PostPass post;
   ShowPass show;
   ReadBack read_back;
+  std::optional<umbrage::NeededTriangles> oracle;
+  uint32_t budget_mib = 0;
   uint64_t serial = 0;     ///< Of the last frame that was begun.
   uint64_t completed = 0;  ///< Of the last frame that the device has finished.
   double first_part_ms = 0;  ///< Where pages are bound within the frame: from submitting what leads there until they are.
@@ -95,6 +98,7 @@ Result<Renderer> Renderer::create(const RendererDesc& desc, const Scene& scene) 
   state->gpu = std::move(gpu).value();
   if (auto made = take(Targets::create(*state->gpu, desc.width, desc.height), state->targets); !made)
     return made.error();
+  state->budget_mib = desc.settings.fixed.budget_mib;
   if (auto made = take(ShadowScene::create(*state->gpu, desc.settings.fixed), state->shadows); !made)
     return made.error();
   state->gpu->shadow_store = state->shadows->system().shader_store();
@@ -302,6 +306,19 @@ Result<void> Renderer::read_visibility(uint32_t first, uint32_t count, std::span
     if (!read) return read.error();
   }
   return {};
+}
+
+Result<void> Renderer::mark_lookups() {
+  auto oracle = umbrage::NeededTriangles::create(state_->shadows->system());
+  if (!oracle) return oracle.error();
+  state_->oracle.emplace(std::move(*oracle));
+  return state_->read_back.mark_lookups(*state_->gpu, VkDeviceSize{state_->budget_mib} << 20);
+}
+
+Result<NeededWork> Renderer::read_needed_work() {
+  auto pass = state_->begin_reading();
+  if (!pass) return pass.error();
+  return state_->read_back.needed(*state_->gpu, *pass, *state_->oracle);
 }
 
 std::string Renderer::device_name() const { return std::string(state_->gpu->headless().name()); }

@@ -31,6 +31,12 @@ struct ViewCamera {
   glm::mat4 world_from_camera{1};
 };
 
+/// What no frame could do without: the oracle of the benchmarks.
+struct NeededWork {
+  uint64_t texels = 0;     ///< Different ones that were looked up.
+  uint64_t triangles = 0;  ///< (triangle, view) pairs of what was drawn that cover one of those.
+};
+
 enum class Show : uint8_t {
   image, clusters, explicit_bounds, lights_per_pixel, normals, depth, resolution, texels_per_pixel, pages,
   triangles_per_map, projection_maps, cube_projection
@@ -98,6 +104,11 @@ class Renderer {
   /// most 255; 0 where not evaluated.
   umbrage::Result<void> read_visibility(uint32_t first, uint32_t count, std::span<uint8_t> visibility,
                                         std::span<uint8_t> band_px);
+
+  /// From now on read_visibility notes which of the pool's texels it looks up (store=page_pool).
+  umbrage::Result<void> mark_lookups();
+  /// Precondition: mark_lookups, and read_visibility of all lights since the last frame.
+  umbrage::Result<NeededWork> read_needed_work();
 
   std::string device_name() const;
   std::string driver() const;

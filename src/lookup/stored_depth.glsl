@@ -1,5 +1,9 @@
 // A texel of a map, wherever the store keeps it; a part of umbrage.glsl.
 
+#ifndef UMBRAGE_VISIT_TEXEL
+#define UMBRAGE_VISIT_TEXEL(texel)   // a texel of the pool that a tap reads, for hosts that count them
+#endif
+
 /// Where the last tap was found: neighbours mostly share its page.
 struct TapPage {
   uint key;          // view and page
@@ -25,7 +29,9 @@ UMB_FN float texel_of_page(Frame frame, Map map, uint view, uvec2 texel, uint fi
   if (store_of(frame) == StoreSparseWords) return uintBitsToFloat(texelFetch(umbrage_words[nonuniformEXT(map.image)], at, 0).x);
   if (store_of(frame) == StoreSparseDepth) return texelFetch(umbrage_images[nonuniformEXT(map.image)], at, 0).x;
 #endif
-  return uintBitsToFloat(UmbrageUints(UmbrageFrames(frame.address).v[0].pool).v[first + texel_in_page(texel, map.resolution)]);
+  uint place = first + texel_in_page(texel, map.resolution);
+  UMBRAGE_VISIT_TEXEL(place);
+  return uintBitsToFloat(UmbrageUints(UmbrageFrames(frame.address).v[0].pool).v[place]);
 }
 
 UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {

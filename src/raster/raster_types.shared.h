@@ -80,6 +80,21 @@ struct PageRasterPush {      // plan_dispatches, rasterize_triangles, bin_triang
 };
 UMB_ASSERT_SIZE(PageRasterPush, 128);
 
+struct CountNeededPush {     // count_needed; names as in PageRasterPush
+  uint64_t frame;
+  uint64_t casters;
+  uint64_t instances;
+  uint64_t batches;
+  uint64_t indices;
+  uint64_t items;
+  uint64_t counts;
+  uint64_t texels;           // a bit each: what was looked up
+  uint64_t count;            // the answer
+  uint item_capacity;
+  uint padding;
+};
+UMB_ASSERT_SIZE(CountNeededPush, 80);
+
 /// Triangles, and tiles of large ones, are drawn only where and in front of what receives (the receiver grid).
 UMB_CONST uint TestReceivers = 1u;
 UMB_CONST uint PlanItems = 0u;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "gpu/hazards.hpp"
 #include "page_rig.hpp"
+#include "raster/needed_triangles.hpp"
 
 namespace umbrage::test {
 namespace {
@@ -129,6 +131,46 @@ TEST_F(PageRasterTest, DrawsCubesAsTheReference) {
     PageRig rig(gpu(), spiteful_scene(300, seed), maps, seed);
     expect_reference(rig, draw(rig, 10000), 0.9);
   }
+}
+
+/// The views of all maps in which the casters cover a texel whose bit is set.
+uint32_t views_that_need(const PageRig& rig, const std::vector<uint32_t>& bits) {
+  std::set<std::pair<uint32_t, uint32_t>> views;
+  for (const PageRig::Page& page : rig.pages()) {
+    const reference::DepthWindow window = rig.reference(page);
+    for (uint32_t i = 0; i < page.side * page.side; ++i) {
+      const uint32_t texel = page.pool_texel + i;
+      if (window.covered[i] && (bits[texel / 32] >> texel % 32 & 1)) views.emplace(page.map, page.view);
+    }
+  }
+  return static_cast<uint32_t>(views.size());
+}
+
+TEST_F(PageRasterTest, TheOracleCountsTrianglesThatCoverALookedUpTexel) {
+  const raster::NeededTriangles oracle = take(raster::NeededTriangles::create(gpu().factory()));
+  const std::vector<PageMap> maps{cube_map({0.03f, -0.02f, 0.01f}, 0.05f, 32), cube_map({0.03f, -0.02f, 0.01f}, 0.05f, 256, 0.6),
+                                  spot_map({1, 2, 1}, {-0.3f, -1, 0.2f}, 0.7f, 0.1f, 128)};
+  uint32_t all = 0, needed_of_all = 0;
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    TestScene scene;
+    scene.meshes = {spiteful_mesh(1, seed)};
+    scene.instances = {{.mesh = 0, .world_from_mesh = affine(glm::mat3(1), {0, 0, 0})}};
+    PageRig rig(gpu(), scene, maps, seed);
+    rig.list_items(seed, false);
+    std::mt19937 engine(seed);
+    std::vector<uint32_t> bits(rig.pool_bytes() / sizeof(uint32_t) / 32 + 1);
+    for (uint32_t& word : bits) word = engine() % 8 == 0 ? uint32_t(engine() & engine() & engine()) : 0;
+    for (const bool everything : {true, false}) {
+      const std::vector<uint32_t> looked_up = everything ? std::vector<uint32_t>(bits.size(), ~0u) : bits;
+      const gpu::Buffer texels = gpu().upload(looked_up), count = gpu().upload(std::vector<uint32_t>{5});
+      rig.run([&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) { oracle.record(recorder, in, texels.address(), count.address()); });
+      const uint32_t found = gpu().download<uint32_t>(count, 1)[0] - 5;
+      EXPECT_EQ(found, views_that_need(rig, looked_up)) << "triangle " << seed;
+      (everything ? all : needed_of_all) += found;
+    }
+  }
+  EXPECT_GT(needed_of_all, 30u);
+  EXPECT_LT(needed_of_all, all);
 }
 
 TEST_F(PageRasterTest, DrawsLargeMapsAsTheReference) {

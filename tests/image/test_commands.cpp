@@ -415,6 +415,10 @@ TEST(Compare, ReportsOnStandardOutputOrInAFile) {
   EXPECT_EQ(report["pairs"]["missing"], 0);
   EXPECT_EQ(report["pairs"]["unexpected"], 0);
   EXPECT_LE(report["wrong_outside_texel_band"], 0.005);
+  EXPECT_GT(report["texels_needed"], 1000u);
+  EXPECT_LT(report["texels_needed"], report["texels_allocated"].get<uint64_t>());
+  EXPECT_GT(report["triangles_needed"], 10u);
+  EXPECT_LE(report["triangles_needed"], report["triangles_drawn"].get<uint64_t>());
   const Outcome silent = run_well(room("compare", {"-o", folder.file("r.json")}));
   EXPECT_EQ(silent.out, "");
   EXPECT_EQ(parse_json(read_all(folder.file("r.json")))["pairs"], report["pairs"]);

@@ -117,6 +117,7 @@ struct FramePush {
   uint64_t output_buffer;   // read_*: where the result goes.
   uint64_t output_band;     // read_visibility: likewise for band_px; 0 = not wanted.
   uint first, count;        // read_visibility: lights; read_surface: first = 0 positions, 1 normals.
+  uint64_t looked_up;       // read_visibility: a bit for each texel of the pool; 0 = not wanted.
 };
 
 /// Push constants of debug pictures.
@@ -154,7 +155,7 @@ struct DeformPush {
 static_assert(sizeof(GpuTexture) == 32 && sizeof(GpuMaterial) == 176 && sizeof(GpuPrimitive) == 40);
 static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 52 && sizeof(GpuCounters) == 36 + 4 * 256);
 static_assert(offsetof(GpuFrame, instances) == 176 && sizeof(GpuFrame) == 224);
-static_assert(sizeof(FramePush) == 32 && sizeof(ShowPush) == 88 && sizeof(DeformPush) == 88);
+static_assert(sizeof(FramePush) == 40 && sizeof(ShowPush) == 88 && sizeof(DeformPush) == 88);
 static_assert(sizeof(GpuSubject) == 48 && sizeof(GpuLightUse) == 8);
 }  // namespace app::gpu
 #endif

@@ -4,11 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
 #include "targets.glsl"
-#define UMBRAGE_COUNT_TAPS
-#include "lighting.glsl"
-
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FramePush push; };
+
+void visit_texel(uint texel) {
+  if (push.looked_up != 0ul) atomicOr(Words(push.looked_up).at[texel / 32u], 1u << texel % 32u);
+}
+#define UMBRAGE_VISIT_TEXEL(texel) visit_texel(texel)
+#define UMBRAGE_COUNT_TAPS
+#include "lighting.glsl"
 
 struct Receiver {
   bool exists;
