@@ -138,7 +138,8 @@ bool draw_in_view(WorldTriangle world, bool may_refuse) {
   for (uint i = 0u; i < 3u; ++i) corner[i] = ClipVertex(view_clip(view, world.position[i]), world.uv[i]);
   if (is_outside(corner[0].position, corner[1].position, corner[2].position)) return true;
   float guard = clip_guard(max(view.width, view.height));
-  bool inside = is_inside_guard(corner[0].position, guard) && is_inside_guard(corner[1].position, guard) && is_inside_guard(corner[2].position, guard);
+  bool inside = is_inside_guard(corner[0].position, guard) && is_inside_guard(corner[1].position, guard) &&
+                is_inside_guard(corner[2].position, guard);
   if (inside) return draw_placed(corner[0], corner[1], corner[2], may_refuse);
   if (may_refuse) return false;
   uint count = clip_triangle(corner, guard);

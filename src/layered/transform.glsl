@@ -47,7 +47,8 @@ vec3 world_position(LayeredPush scene, LayeredInstanceRecord instance, uint vert
 vec3 world_normal(LayeredPush scene, LayeredInstanceRecord instance, uint vertex) {
   if (scene.normals == 0ul) return vec3(0.0);
   vec3 normal = fetch_vec3(scene.normals, vertex);
-  if (vertex_form >= VerticesSkinned && instance.first_bone != NoIndex) normal = skinned(scene, instance.first_bone, vertex, vec4(normal, 0.0));
+  bool is_skinned = vertex_form >= VerticesSkinned && instance.first_bone != NoIndex;
+  if (is_skinned) normal = skinned(scene, instance.first_bone, vertex, vec4(normal, 0.0));
   // The cofactor matrix: right under any scale, mirrored or not.
   vec3 x = instance.row0.xyz, y = instance.row1.xyz, z = instance.row2.xyz;
   return instance.handedness * vec3(dot(cross(y, z), normal), dot(cross(z, x), normal), dot(cross(x, y), normal));
