@@ -73,7 +73,8 @@ Result<void> check_show(const SharedOptions& options, const umbrage::Settings& s
   const auto all = shows();
   const auto info = std::find_if(all.begin(), all.end(), [&](const ShowInfo& i) { return i.show == options.show; });
   const std::string name = std::string("--show ") + info->name;
-  if (info->needs == ShowNeeds::page_pool && settings.fixed.store != umbrage::Store::page_pool)
+  const bool has_pages = settings.fixed.store == umbrage::Store::page_pool || settings.fixed.store == umbrage::Store::hardware_sparse;
+  if (info->needs == ShowNeeds::page_pool && !has_pages)
     return invalid(name + ": needs maps made of pages: choose a preset with store=page_pool, such as default");
   if (info->light == ShowLight::ignored && options.show_light)
     return invalid(name + ": is not about one light: leave out --show-light");

@@ -297,6 +297,58 @@ TEST_F(HardwareSparse, BindsWhatFramesAskForAndNoMore) {
   EXPECT_GT(changed, 0u);
 }
 
+/// As a host that waits for nothing itself: a fence tells the library that requests have finished, a semaphore holds raster back.
+TEST_F(HardwareSparse, BindsBehindAFenceAndBeforeASemaphore) {
+  const SeenScene scene = balls_scene(40, 20, 92);
+  PairRig rig(gpu(), sparse(), scene), other(gpu(), sparse(), scene);
+  const FrameSettings settings = frozen(256, Store::hardware_sparse);
+  const Pairs expected = other.settle(settings);
+  const VkDevice device = gpu().desc().device;
+  VkFence fence = VK_NULL_HANDLE;
+  VkSemaphore bound = VK_NULL_HANDLE;
+  const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  const VkSemaphoreCreateInfo semaphore_info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+  check(vkCreateFence(device, &fence_info, nullptr, &fence), "vkCreateFence");
+  check(vkCreateSemaphore(device, &semaphore_info, nullptr, &bound), "vkCreateSemaphore");
+  ShadowSystem& system = rig.system();
+  for (uint32_t frame = 0; frame < 2; ++frame) {  // pages to bind, then none
+    const FrameDesc desc = rig.describe(settings);
+    take(system.begin_frame(desc));
+    const VkCommandBuffer first = gpu().begin();
+    system.record_scene(first);
+    system.record_requests(first);
+    gpu().submit(first, fence);
+    take(system.bind_pages({.queue = gpu().queue(), .requests = fence, .bound = bound}));
+    check(vkResetFences(device, 1, &fence), "vkResetFences");
+    const VkCommandBuffer second = gpu().begin();
+    system.record_shadows(second);
+    check(vkEndCommandBuffer(second), "vkEndCommandBuffer");
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    info.commandBufferCount = 1, info.pCommandBuffers = &second;
+    info.waitSemaphoreCount = 1, info.pWaitSemaphores = &bound, info.pWaitDstStageMask = &stage;
+    check(vkQueueSubmit(gpu().queue(), 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");
+    check(vkQueueWaitIdle(gpu().queue()), "vkQueueWaitIdle");
+    system.collect(desc.serial);
+    EXPECT_EQ(system.statistics().pages_bound > 0, frame == 0);
+    expect_bound(rig);
+  }
+  EXPECT_EQ(differences(expected, rig.settle(settings)), 0u);
+  vkDestroySemaphore(device, bound, nullptr);
+  vkDestroyFence(device, fence, nullptr);
+}
+
+TEST_F(HardwareSparse, RefusesToBindOutOfTurn) {
+  PairRig pages(gpu(), {}, balls_scene(5, 3, 93));
+  EXPECT_FALSE(pages.system().binds_pages());
+  EXPECT_EQ(pages.system().bind_pages({.queue = gpu().queue()}).error().code, ErrorCode::invalid_argument);
+  PairRig images(gpu(), sparse(), balls_scene(5, 3, 93));
+  EXPECT_TRUE(images.system().binds_pages());
+  EXPECT_EQ(images.system().bind_pages({.queue = gpu().queue()}).error().code, ErrorCode::invalid_argument) << "no frame has begun";
+  images.settle();
+  EXPECT_EQ(images.system().bind_pages({}).error().code, ErrorCode::invalid_argument) << "no queue";
+}
+
 TEST_F(HardwareSparse, FallsWithTheBudgetAndReturns) {
   const SeenScene scene = balls_scene(40, 30, 88);
   const FrameSettings settings{.layout = MapLayout::exact, .min_resolution = 512};
