@@ -33,10 +33,12 @@ Ray shadow_ray(const Light& light, glm::vec3 start) {
 
 /// How far rays start from their surface. Positions are as wrong as their coordinates are large, so that these decide; in a
 /// picture of one corner of a large scene the scene's diagonal would lift grazing rays over what stands in their way.
-float offset_of(const SurfaceImage& image, float diagonal) {
+float offset_of(const SurfaceImage& image, const Light& light, float diagonal) {
   float largest = 0;
   for (const float coordinate : image.positions) largest = std::max(largest, std::isnan(coordinate) ? 0 : std::abs(coordinate));
-  return start_offset * std::min(largest, diagonal);
+  if (light.kind != app::LightKind::directional)
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(light.position[axis]));
+  return start_offset * (largest > 0 ? std::min(largest, diagonal) : diagonal);
 }
 
 /// Eight shadow rays in Embree's layout with the pixels they belong to.
@@ -85,7 +87,7 @@ class EmbreeTracer final : public RayTracer {
     assert(image.positions.size() == 3 * pixels && image.normals.size() == 3 * pixels);
     assert(evaluated.size() == pixels && result.size() == pixels);
     std::fill(result.begin(), result.end(), not_evaluated);
-    const float offset = offset_of(image, blockers_.diagonal());
+    const float offset = offset_of(image, light, blockers_.diagonal());
     parallel_rows(image.height, [&](uint32_t y) { trace_row(light, image, offset, y, evaluated, result); });
   }
 

@@ -71,7 +71,7 @@ class RayTracer {
 
   /// One shadow ray for each pixel whose `evaluated` byte is not 255: result blocked or visible, otherwise
   /// not_evaluated. A ray starts at the position moved along the normal, by 1e-5 of the
-  /// largest coordinate in the picture or of diagonal(), whichever is less, and ends at the light's
+  /// largest coordinate in the picture or of the light, or of diagonal(), whichever is less, and ends at the light's
   /// near plane, since what is nearer casts no shadow: for lights drawn as cubes where the largest of the three
   /// world-axis distances to the light is `near`, for spots drawn as one view where the depth along the spot's
   /// direction is `near`. A start nearer than that is visible. Directional lights: the ray has no end. Preconditions:
