@@ -1,7 +1,7 @@
 // A batch's triangle into one view's texels, with the arithmetic of raster/triangle.shared.h: 8 sub-pixel bits, the top-left
 // rule, depth from exact edge functions. Includer: push (ComputeWritePush), masks[].
 #include "layered/transform.glsl"
-#include "raster/triangle.shared.h"
+#include "raster/triangle.glsl"
 layout(constant_id = 4) const bool is_reversed = false;  // larger is nearer
 layout(constant_id = 5) const bool masked = false;
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Scenes { LayeredPush v[]; };
@@ -34,31 +34,19 @@ WorldTriangle fetch_triangle(uint triangle) {
 }
 
 bool is_cut_out(RasterTriangle t, vec3 weights, float level) {
-  vec2 uv = vec2(dot(weights, t.u), dot(weights, t.v)) / dot(weights, t.q);
-  return textureLod(masks[nonuniformEXT(batch.mask)], uv, level).a * batch.alpha_factor < batch.alpha_cutoff;
-}
-
-/// Level of detail at the triangle's middle.
-float mask_level(RasterTriangle t, vec3 step_x, vec3 step_y) {
-  float q = t.q.x + t.q.y + t.q.z;
-  vec2 uv = vec2(t.u.x + t.u.y + t.u.z, t.v.x + t.v.y + t.v.z) / q;
-  float third = (float(t.x1 - t.x0) * float(t.y2 - t.y0) - float(t.y1 - t.y0) * float(t.x2 - t.x0)) / (3.0 * float(SubTexels));
-  vec2 size = vec2(textureSize(masks[nonuniformEXT(batch.mask)], 0)) / (q * third);
-  vec2 across = (vec2(dot(step_x, t.u), dot(step_x, t.v)) - uv * dot(step_x, t.q)) * size;
-  vec2 down = (vec2(dot(step_y, t.u), dot(step_y, t.v)) - uv * dot(step_y, t.q)) * size;
-  return 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+  return textureLod(masks[nonuniformEXT(batch.mask)], mask_coordinates(t, weights), level).a * batch.alpha_factor < batch.alpha_cutoff;
 }
 
 void draw_block(RasterTriangle t, ivec2 lo, ivec2 hi) {
-  ivec3 step_x = ivec3(t.y1 - t.y2, t.y2 - t.y0, t.y0 - t.y1);
-  ivec3 step_y = ivec3(t.x2 - t.x1, t.x0 - t.x2, t.x1 - t.x0);
+  ivec3 step_x = steps_x(t);
+  ivec3 step_y = steps_y(t);
   ivec2 at = lo * SubTexels + SubTexels / 2;
   EdgeStart a = start_edge(step_x.x, step_y.x, at.x - t.x1, at.y - t.y1);
   EdgeStart b = start_edge(step_x.y, step_y.y, at.x - t.x2, at.y - t.y2);
   EdgeStart c = start_edge(step_x.z, step_y.z, at.x - t.x0, at.y - t.y0);
   ivec3 row_edges = ivec3(a.value, b.value, c.value);
   vec3 fractions = vec3(a.fraction, b.fraction, c.fraction);
-  float level = masked ? mask_level(t, vec3(step_x), vec3(step_y)) : 0.0;
+  float level = masked ? mask_level(t, textureSize(masks[nonuniformEXT(batch.mask)], 0)) : 0.0;
   Uints keys = Uints(push.keys);
   uint row = ((view.layer - push.first_layer) * push.height + view.y + uint(lo.y)) * push.width + view.x + uint(lo.x);
   for (int y = lo.y; y <= hi.y; ++y, row_edges += step_y, row += push.width) {
@@ -109,26 +97,6 @@ bool draw_placed(ClipVertex a, ClipVertex b, ClipVertex c, bool may_refuse) {
     draw_block(t, lo, min(lo + BlockSide - 1, last));
   }
   return true;
-}
-
-/// Cuts the triangle to the planes that it crosses; the rest is a fan around corner[0].
-uint clip_triangle(inout ClipVertex corner[9], float guard) {
-  uint count = 3u;
-  for (uint plane = 0u; plane < ClipPlanes && count > 0u; ++plane) {
-    ClipVertex former[9] = corner;
-    uint kept = 0u;
-    for (uint i = 0u; i < count; ++i) {
-      ClipVertex from = former[i];
-      ClipVertex to = former[i + 1u == count ? 0u : i + 1u];
-      float from_distance = clip_distance(from.position, plane, guard);
-      float to_distance = clip_distance(to.position, plane, guard);
-      if (from_distance >= 0.0) corner[kept++] = from;
-      if (from_distance >= 0.0 && to_distance < 0.0) corner[kept++] = clip_edge(from, to, from_distance, to_distance);
-      if (from_distance < 0.0 && to_distance >= 0.0) corner[kept++] = clip_edge(to, from, to_distance, from_distance);
-    }
-    count = kept;
-  }
-  return count;
 }
 
 /// False: left to a workgroup (only with may_refuse).

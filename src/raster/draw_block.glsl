@@ -1,26 +1,16 @@
 // One thread draws a triangle's texels in a block of a page. Includer: `masked`, masks[], push.
 #include "raster/page_raster_buffers.glsl"
 
-/// Level of detail of a triangle's mask: the whole one nearest to that of a texel at its middle, which is half the work of two.
+/// The whole level nearest to the right one: half the work of two.
 float mask_level(RasterTriangle t) {
-  float q = t.q.x + t.q.y + t.q.z;
-  vec2 uv = vec2(t.u.x + t.u.y + t.u.z, t.v.x + t.v.y + t.v.z) / q;
-  vec3 x = vec3(steps_x(t));
-  vec3 y = vec3(steps_y(t));
-  // Weights change by a step from texel to texel; at the middle each is a third of their constant sum.
-  float third = (float(t.x1 - t.x0) * float(t.y2 - t.y0) - float(t.y1 - t.y0) * float(t.x2 - t.x0)) / (3.0 * float(SubTexels));
-  vec2 size = vec2(textureSize(masks[nonuniformEXT(Batches(push.batches).v[t.batch].mask)], 0)) / (q * third);
-  vec2 across = (vec2(dot(x, t.u), dot(x, t.v)) - uv * dot(x, t.q)) * size;
-  vec2 down = (vec2(dot(y, t.u), dot(y, t.v)) - uv * dot(y, t.q)) * size;
-  return roundEven(0.5 * log2(max(max(dot(across, across), dot(down, down)), 1.0)));
+  return roundEven(max(mask_level(t, textureSize(masks[nonuniformEXT(Batches(push.batches).v[t.batch].mask)], 0)), 0.0));
 }
 
-/// Perspective texture coordinates at a texel, looked up in the mask.
+/// The mask at a texel.
 bool is_cut_out(RasterTriangle t, vec3 weights, float level) {
   if (t.batch == NoIndex) return false;
   BatchRecord batch = Batches(push.batches).v[t.batch];
-  vec2 uv = vec2(dot(weights, t.u), dot(weights, t.v)) / dot(weights, t.q);
-  return textureLod(masks[nonuniformEXT(batch.mask)], uv, level).a * batch.alpha_factor < batch.alpha_cutoff;
+  return textureLod(masks[nonuniformEXT(batch.mask)], mask_coordinates(t, weights), level).a * batch.alpha_factor < batch.alpha_cutoff;
 }
 
 /// Draws a triangle's texels first … last, which lie in one page that begins at `origin` in the pool. Rows are cut to where

@@ -1,5 +1,6 @@
 // Scratch of the page rasteriser by address, and drawing a block of a triangle's texels by one thread.
 #include "raster/page_buffers.glsl"
+#include "raster/triangle.glsl"
 
 UMB_ARRAY(RasterTriangles, RasterTriangle, 4);
 UMB_ARRAY(TileNodes, TileNode, 4);
@@ -10,10 +11,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Appended { R
 
 /// Number of the workgroup in a dispatch that plan_dispatches has folded.
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
-/// Steps of the three edge functions along x and y.
-ivec3 steps_x(RasterTriangle t) { return ivec3(t.y1 - t.y2, t.y2 - t.y0, t.y0 - t.y1); }
-ivec3 steps_y(RasterTriangle t) { return ivec3(t.x2 - t.x1, t.x0 - t.x2, t.x1 - t.x0); }
 
 /// Edge functions at a texel.
 void start_edges(RasterTriangle t, uvec2 texel, out ivec3 edges, out vec3 fractions) {

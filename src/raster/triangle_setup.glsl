@@ -53,27 +53,6 @@ void set_up_placed(uint view, ClipVertex a, ClipVertex b, ClipVertex c) {
   take_triangle(t, narrow);
 }
 
-/// Cuts the triangle to the planes that it crosses; the rest is a fan around corner[0].
-uint clip_triangle(inout ClipVertex corner[9], float guard) {
-  uint count = 3u;
-  for (uint plane = 0u; plane < ClipPlanes; ++plane) {
-    ClipVertex former[9] = corner;
-    uint kept = 0u;
-    for (uint i = 0u; i < count; ++i) {
-      ClipVertex from = former[i];
-      ClipVertex to = former[i + 1u == count ? 0u : i + 1u];
-      float from_distance = clip_distance(from.position, plane, guard);
-      float to_distance = clip_distance(to.position, plane, guard);
-      if (from_distance >= 0.0) corner[kept++] = from;
-      if (from_distance >= 0.0 && to_distance < 0.0) corner[kept++] = clip_edge(from, to, from_distance, to_distance);
-      if (from_distance < 0.0 && to_distance >= 0.0) corner[kept++] = clip_edge(to, from, to_distance, from_distance);
-    }
-    count = kept;
-    if (count == 0u) break;
-  }
-  return count;
-}
-
 /// All vertices beyond one side of the view, its near or its far plane.
 bool is_outside(vec4 a, vec4 b, vec4 c) {
   vec3 w = vec3(a.w, b.w, c.w);
