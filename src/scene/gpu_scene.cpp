@@ -46,6 +46,7 @@ void GpuScene::fill(Instance& instance, const Mesh& mesh) const {
   record.uvs = mesh.device_uvs.address ? mesh.device_uvs.address : mesh.uv_buffer ? mesh.uv_buffer->address() : 0;
   record.uv_stride = mesh.device_uvs.address ? mesh.device_uvs.stride_bytes / 4 : 2;
   record.light_mask = instance.desc.light_mask;
+  record.flags = instance.desc.mobility == Mobility::fixed ? shared::InstanceIsFixed : 0;
 }
 
 Result<void> GpuScene::ensure_buffers() {

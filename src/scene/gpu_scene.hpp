@@ -72,6 +72,10 @@ class GpuScene {
   const gpu::Buffer& batch_buffer() const { return batch_buffer_.buffer(); }
   const gpu::Buffer& caster_buffer() const { return caster_buffer_.buffer(); }
   const gpu::Buffer& index_buffer() const { return index_buffer_.buffer(); }
+  const gpu::Buffer& caster_boxes() const { return caster_boxes_.buffer(); }
+  /// Casters that came, went, moved or deformed with the last upload(): their numbers, in staging memory of that frame.
+  VkDeviceAddress moved_casters() const { return moved_address_; }
+  uint32_t moved_caster_count() const { return moved_count_; }
   /// Slots of the lights alive: directional ones first, then by priority.
   const gpu::Buffer& light_order_buffer() const { return light_order_buffer_.buffer(); }
   const BoxTree& caster_tree() const { return caster_tree_; }

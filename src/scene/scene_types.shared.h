@@ -37,9 +37,12 @@ struct InstanceRecord {
   uint position_stride;    // in floats
   uint uv_stride;          // in floats
   uint light_mask;
-  uint flags;
+  uint flags;              // InstanceIsFixed
 };
 UMB_ASSERT_SIZE(InstanceRecord, 80);
+
+/// Mobility::fixed.
+UMB_CONST uint InstanceIsFixed = 1u;
 
 /// A batch of a mesh (O4): a range of the shared index buffer.
 struct BatchRecord {

@@ -2,7 +2,7 @@
 # stages declare lower ones only, and app/, examples/ and public headers see public headers only.
 # LAYERS has one line a stage: "name: depends on …".
 cmake_minimum_required(VERSION 3.25)
-set(order core gpu views scene clusters maps store culling raster layered debug frame shadow_system)
+set(order core gpu views scene clusters maps store culling raster cascades layered debug frame shadow_system)
 set(faults)
 
 set(rank 0)
