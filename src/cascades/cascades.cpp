@@ -98,9 +98,10 @@ Result<void> Cascades::begin(const gpu::Device& device, gpu::Memory& memory, con
   const VkBuffer former_maps = maps_.handle();
   last_serial_ = 0;  // an error leaves nothing known
   if (auto ok = reserve(device, memory, std::max(scene.caster_slots(), 1u), retired); !ok) return ok;
-  if (maps_.handle() != former_maps)
-    for (shared::CascadeRecord& record : std::span(table_.records, table_.cascades))
-      record.flags &= ~shared::CascadeHolds;
+  for (shared::CascadeRecord& record : std::span(table_.records, table_.cascades)) {
+    if (in.fresh || maps_.handle() != former_maps) record.flags &= ~shared::CascadeHolds;
+    if (in.fresh) record.flags |= shared::CascadeAllStatic;
+  }
   last_serial_ = in.serial;
   table_.states = states_.address();
   table_.maps = maps_.address();

@@ -16,6 +16,7 @@ class Cascades {
     std::span<const CascadeLight> lights;  ///< The first MaxCascades / count of them have cascades.
     CascadeSettings settings;
     double time_s = 0;    ///< The host's clock; stillness is measured with it. What runs backwards counts as standing.
+    bool fresh = false;   ///< Every map is drawn anew from everything in its volume: what each mode must come to.
     uint64_t serial = 0;  ///< Of the frame: a gap means that nothing is known of casters any more.
   };
   /// Plans the frame and makes room for it. On error nothing has changed but the room.

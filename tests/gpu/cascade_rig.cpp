@@ -1,0 +1,99 @@
+#include "cascade_rig.hpp"
+
+#include "clusters/camera.hpp"
+
+namespace umbrage::test {
+
+CascadeRig::CascadeRig(Gpu& gpu, const TestScene& test_scene, std::vector<cascades::CascadeSettings> settings,
+                       const glm::vec3& sun)
+    : gpu_(gpu),
+      scene_(gpu.device(), gpu.memory(), {}),
+      pipelines_(take(scene::ScenePipelines::create(gpu.factory()))),
+      mask_(gpu, VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT, 16, 16) {
+  std::vector<uint32_t> checkers(256);
+  for (uint32_t i = 0; i < checkers.size(); ++i) checkers[i] = (i / 4 + i / 64) % 2 ? 0xffffffffu : 0x00ffffffu;
+  gpu.fill(mask_, checkers.data(), checkers.size() * sizeof(uint32_t), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  gpu.set_mask(0, mask_);
+  const MaskId mask = take(scene_.add_mask(mask_.view(), VK_NULL_HANDLE));
+  for (const TestMesh& mesh : test_scene.meshes) {
+    const Submesh masked{.index_count = static_cast<uint32_t>(mesh.indices.size()), .mask = mask};
+    MeshDesc desc{.positions = mesh.positions, .indices = mesh.indices, .uvs = mesh.uvs};
+    if (!mesh.uvs.empty()) desc.submeshes = {&masked, 1};
+    meshes_.push_back(take(scene_.add_mesh(desc)));
+  }
+  for (const TestInstance& instance : test_scene.instances)
+    instances.push_back(take(scene_.add_instance(
+        {.mesh = meshes_[instance.mesh], .world_from_mesh = instance.world_from_mesh, .mobility = instance.mobility})));
+  set_sun(sun);
+  for (const cascades::CascadeSettings& mode : settings)
+    modes_.push_back(
+        {mode, take(cascades::Cascades::create(gpu.factory())), take(cascades::Cascades::create(gpu.factory()))});
+  frame_ = gpu.buffer(sizeof(shared::TreeShape), gpu::MemoryKind::device, "frame");
+  counters_ = gpu.buffer(sizeof(shared::FrameCounters), gpu::MemoryKind::device, "counters");
+}
+
+void CascadeRig::frame(const CameraDesc& desc, double seconds) {
+  ++serial_;
+  time_s_ += seconds;
+  const shared::CameraRecord camera = take(clusters::camera_record(desc));
+  gpu::Uploader edits, tables;
+  take(scene_.upload(edits, retired_, serial_));
+  scene_.new_masks().clear();
+  const shared::TreeShape shape = scene::tree_shape(scene_.caster_slots());
+  take(tables.begin(gpu_.device(), gpu_.memory(), 1 << 18, "staging"));
+  tables.copy(frame_, 0, &shape, sizeof shape);
+  std::vector<gpu::Buffer> outgrown;
+  for (Mode& mode : modes_)
+    for (cascades::Cascades* stage : {&mode.stage, &mode.fresh}) {
+      take(stage->begin(gpu_.device(), gpu_.memory(), scene_,
+                        {.camera = camera,
+                         .lights = {&sun_, 1},
+                         .settings = mode.settings,
+                         .time_s = time_s_,
+                         .fresh = stage == &mode.fresh,
+                         .serial = serial_},
+                        outgrown));
+      stage->upload(tables);
+    }
+  gpu_.run([&](VkCommandBuffer commands) {
+    gpu::Recorder recorder = gpu_.recorder(commands, log);
+    scene_.record(recorder, pipelines_, edits, retired_, serial_);
+    tables.record(recorder);
+    for (Mode& mode : modes_)
+      for (cascades::Cascades* stage : {&mode.stage, &mode.fresh})
+        stage->record(recorder, {scene_, frame_, frame_.address(), counters_, serial_}, retired_);
+  });
+  retired_.collect(serial_);
+}
+
+std::vector<uint32_t> CascadeRig::read(cascades::Cascades& stage, size_t cascade, bool finished) {
+  const auto state = gpu_.download<shared::CascadeState>(stage.states(), cascade + 1)[cascade];
+  const shared::CascadeRecord& record = stage.planned().records[cascade];
+  const uint32_t which = finished && state.shows_work ? 2 : state.front;
+  const VkDeviceSize first = VkDeviceSize(which) * stage.planned().texels + record.first_texel;
+  return gpu_.download<uint32_t>(stage.maps(), record.side * record.side, first * sizeof(uint32_t));
+}
+
+std::vector<uint32_t> CascadeRig::finished(size_t mode, size_t cascade) {
+  return read(modes_[mode].stage, cascade, true);
+}
+std::vector<uint32_t> CascadeRig::fresh(size_t mode, size_t cascade) { return read(modes_[mode].fresh, cascade, true); }
+std::vector<uint32_t> CascadeRig::static_map(size_t mode, size_t cascade) {
+  return read(modes_[mode].stage, cascade, false);
+}
+
+std::vector<shared::CascadeState> CascadeRig::states(size_t mode) {
+  return gpu_.download<shared::CascadeState>(modes_[mode].stage.states(), modes_[mode].settings.count);
+}
+
+size_t CascadeRig::wrong_texels(size_t mode) {
+  size_t wrong = 0;
+  for (size_t cascade = 0; cascade < modes_[mode].settings.count; ++cascade) {
+    EXPECT_EQ(record(mode, cascade).origin, modes_[mode].fresh.planned().records[cascade].origin);
+    const auto have = finished(mode, cascade), want = fresh(mode, cascade);
+    for (size_t i = 0; i < want.size(); ++i) wrong += have[i] != want[i];
+  }
+  return wrong;
+}
+
+}  // namespace umbrage::test
