@@ -154,7 +154,7 @@ void ShadowSystem::State::lay_out_images(const FrameSettings& frame_settings, st
   store::ImageDemand demand{.finest = frame_settings.max_resolution, .texels = budget_bytes() / texel_bytes(), .most_side = limits.max_image_side,
                             .most_layers = limits.max_image_layers};
   const store::LeastRoom room = store::least_room_of_images(demand, is_sparse ? store::kOrdinaryMaps : store::kLeastMaps, texel_bytes());
-  views = store::number_views(frame->scene.lights(), room, changed, without_map);
+  views = store::number_views(frame->scene.lights(), room, 1, changed, without_map).views;
   // In powers of two, so that a light more or less makes no new images.
   demand.views = static_cast<uint32_t>(std::min<uint64_t>(std::bit_ceil(views), room.views));
   if (!is_sparse) {
@@ -180,7 +180,9 @@ Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settin
   if (!frame->scene.lights_edited() && wanted == laid_out_for) return {};
   std::vector<uint32_t> changed;
   if (settings.store == Store::page_pool) {
-    views = store::number_views(frame->scene.lights(), store::least_room_of_pool(budget_bytes()), changed, without_map);
+    const store::ViewCount numbered =
+        store::number_views(frame->scene.lights(), store::least_room_of_pool(budget_bytes()), store::kSunViews, changed, without_map);
+    views = numbered.views, map_sizes.suns = numbered.suns;
   } else if (has_virtual_maps()) {
     lay_out_images(frame_settings, changed);
   } else {
@@ -247,9 +249,10 @@ Result<void> ShadowSystem::State::reserve_virtual_maps(const FrameDesc& desc) {
   // At least what every light's coarsest map and whole map take; more from what frames report.
   map_sizes.light_slots = std::max(map_sizes.light_slots, light_slots);
   map_sizes.pairs = frame->clusters.pair_capacity();
-  map_sizes.maps = std::max({map_sizes.maps, 3 * light_slots, 64u});
+  const uint32_t sun_maps = map_sizes.suns * kExpectedSunMaps;
+  map_sizes.maps = std::max({map_sizes.maps, 3 * light_slots + sun_maps, 64u});
   map_sizes.receiver_views = std::max({map_sizes.receiver_views, 3 * views, 384u});
-  map_sizes.words = std::max({map_sizes.words, 8 * views, 4096u});
+  map_sizes.words = std::max({map_sizes.words, 8 * views + sun_maps * shared::page_words_of(shared::pages_of(1u << shared::MaxLevel)), 4096u});
   map_sizes.receiver_grid = desc.settings.receiver_grid;
   const auto grid_bytes = [&] { return uint64_t(map_sizes.receiver_views) * map_sizes.receiver_grid * map_sizes.receiver_grid * sizeof(uint32_t); };
   while (map_sizes.receiver_grid > 1 && grid_bytes() > kMaxGridBytes) map_sizes.receiver_grid /= 2;

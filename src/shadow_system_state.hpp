@@ -29,6 +29,7 @@ struct ShadowSystem::State {
   static constexpr uint64_t kMaxGrownPairs = 1u << 19;   // 80 MB; more pairs take more rounds
 
   static constexpr uint64_t kMaxGridBytes = 64u << 20;   // of farthest receivers; beyond it their grids are coarser
+  static constexpr uint32_t kExpectedSunMaps = 16;       // levels of a directional light, before any frame has counted them
   static constexpr uint32_t kMaxLargeTriangles = 1u << 19;  // queued at once, 380 bytes each; more are drawn by a thread each
 
   ~State();

@@ -80,6 +80,7 @@ struct FrameSettings {
   HistogramBuckets buckets = HistogramBuckets::logarithmic;  ///< Of the exact layout.
   FacingAway facing_away = FacingAway::dropped;
   uint32_t maps_per_light = 6;               ///< O8: at most, 1…16. Levels: coarser requests use the coarsest kept.
+  uint32_t levels_per_sun = 16;              ///< Levels layout in the page pool: maps of a directional light at most, 1…16.
   uint32_t undersampling = 1;                ///< O17: divides every resolution; 1, 2 or 4.
   uint32_t receiver_grid = 32;               ///< Cells along a view's side that know their farthest receiver; at most, 1…32, a power of two.
   LightAssignment light_assignment = LightAssignment::hierarchy;

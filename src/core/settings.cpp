@@ -38,7 +38,7 @@ constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
   [](const Settings& s) { return static_cast<uint32_t>(s.path); },                         \
       [](Settings& s, uint32_t v) { s.path = static_cast<decltype(s.path)>(v); }
 
-const std::array<Field, 21> kFields{{
+const std::array<Field, 22> kFields{{
     {{"cluster_bounds", "implicit_cell|explicit_bits", "bounds of a cluster: its cell, or tight ones from three 10-bit number lines (O9)"},
      UMB_FIELD(frame.cluster_bounds), kBounds},
     {{"light_assignment", "hierarchy|brute_force", "lights per cluster through the 32-way light tree, or every pair tested"},
@@ -60,6 +60,8 @@ const std::array<Field, 21> kFields{{
     {{"buckets", "logarithmic|linear", "steps of the histogram behind a light's maps (O8, E8); exact layout"}, UMB_FIELD(frame.buckets), kBuckets},
     {{"facing_away", "kept|dropped", "cluster/light pairs whose normals all face away from the light"}, UMB_FIELD(frame.facing_away), kFacingAway},
     {{"maps_per_light", "1..16", "maps of different resolution that a light may have (O8)"}, UMB_FIELD(frame.maps_per_light), {}, 1, 16},
+    {{"levels_per_sun", "1..16", "levels of a directional light that may have a map; fewer are each used for more (levels layout, page pool)"},
+     UMB_FIELD(frame.levels_per_sun), {}, 1, 16},
     {{"undersampling", "1..4, a power of two", "divides every resolution (O17)"}, UMB_FIELD(frame.undersampling), {}, 1, 4, true},
     {{"receiver_grid", "1..32, a power of two", "cells along a view's side that know their farthest receiver, for depth culling; fewer where there are thousands of lights"},
      UMB_FIELD(frame.receiver_grid), {}, 1, 32, true},

@@ -9,7 +9,7 @@ void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position
   if (record.view_count == 0u) return;
   Map map = map_of_pair(frame, cluster, i, slot);
   if (map.resolution == 0u) return;
-  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[record.first_view];
+  ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[map.first_view];
   vec3 relative = position_ws - record.position_ws;
   vec3 ray = relative;   // from the light through the point
   vec3 step_u;

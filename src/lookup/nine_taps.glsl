@@ -108,11 +108,19 @@ UMB_FN float visibility_spot(Frame frame, Map map, vec3 relative, vec3 normal, i
   return sum.x / sum.y;
 }
 
-UMB_FN float visibility_ortho(Frame frame, Map map, vec3 position_ws, vec3 normal, inout TapPage last) {
+UMB_FN bool is_beyond(vec2 clip) { return any(greaterThan(abs(clip), vec2(1.0f))); }
+
+/// casters: the light's view that holds every caster.
+UMB_FN float visibility_ortho(Frame frame, Map map, uint casters, vec3 position_ws, vec3 normal, inout TapPage last) {
   ShadowView view = UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[map.first_view];
   vec4 clip = view_clip_position(view, position_ws + normal * (NormalOffsetTexels * view.side_m / float(map.resolution)));
   vec4 own = view_clip_position(view, position_ws);
-  if (any(greaterThan(abs(own.xy), vec2(1.0f)))) return 1.0f;   // beyond every caster
+  if (is_beyond(own.xy)) {
+    // Beyond every caster; or beside a level's window, in what no depth buffer showed.
+    if (map.first_view != casters && !is_beyond(view_clip_position(UmbrageViews(UmbrageFrames(frame.address).v[0].views).v[casters], position_ws).xy))
+      last.missing += 9u;
+    return 1.0f;
+  }
   float half_side = view.side_m * 0.5f;
   vec3 forward = normalize(-view.z_row);
   float slope = min(dot(normal, forward), -0.02f);

@@ -146,7 +146,7 @@ uvec2 umbrage_cluster_cell(Frame frame, Cluster cluster) {
 #include "lookup/nine_taps.glsl"
 
 UMB_FN float visibility_in_map(Frame frame, LightRecord light, Map map, vec3 position_ws, vec3 normal_ws, inout TapPage last) {
-  if (light.views == ViewsOrtho) return visibility_ortho(frame, map, position_ws, normal_ws, last);
+  if (light.views == ViewsOrtho) return visibility_ortho(frame, map, light.first_view, position_ws, normal_ws, last);
   vec3 relative = position_ws - light.position_ws;
   if (light.views == ViewsSpot) return visibility_spot(frame, map, relative, normal_ws, last);
   return visibility_cube(frame, map, relative, normal_ws, last);

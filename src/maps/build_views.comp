@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "clusters/cluster_buffers.glsl"
 #include "maps/map_push.shared.h"
+#include "views/sun_levels.shared.h"
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform PushBlock { BuildViewsPush push; };
 UMB_ARRAY(Views, ShadowView, 4);
@@ -49,4 +50,7 @@ void main() {
     view.light = used ? slot : NoIndex;
     Views(push.views).v[light.first_view + i] = view;
   }
+  // In the page pool its maps are windows of a plane, which place_levels finds.
+  if (light.views == ViewsOrtho && light.view_count > 0u && frame.store == StorePool)
+    Views(push.views).v[light.first_view + SunPlane] = sun_plane(light.direction_ws, box.lo, box.hi);
 }

@@ -22,20 +22,26 @@ struct Limits {
   uint shift;             // on top of the light's own
 };
 
-uint resolution_of_place(LightRequest request, uint place, uint shift) {
+uint resolution_of_place(LightRecord light, LightRequest request, uint place, uint shift) {
+  if (has_levels(light)) return Views(push.views).v[light.first_view + SunFirstWindow + place].resolution;
   if (!has_flag(MapsExact)) return backed_resolution(1u << level_of_place(place), backing().x);   // places are shifted already
   return exact_resolution(uintBitsToFloat(request.buckets[place]) / float(1u << shift), backing().x);
 }
 
 /// Places at which a map begins. Levels: halving moves a level to the next place, the last ones meet at the coarsest; of too
 /// many the finest stay. Buckets: one for each resolution that differs from the one before.
-uint kept_places(LightRequest request, uint shift, uint most) {
+uint kept_places(LightRecord light, LightRequest request, uint shift, uint most) {
+  if (has_levels(light)) {
+    // As many as place_levels has left, unless tables are short; the last shift is to the coarsest at once.
+    if (shift == MaxShift) shift = SunPlaces;
+    return sun_kept_places(sun_shifted_places(request.places, shift), most < push.maps_per_light ? most : MaxMapsPerLight);
+  }
   uint kept = 0u;
   if (has_flag(MapsExact)) {
     uint before = 0u;
     for (uint place = 0u; place < push.maps_per_light; ++place) {
       if ((request.places & (1u << place)) == 0u) continue;
-      uint resolution = resolution_of_place(request, place, shift);
+      uint resolution = resolution_of_place(light, request, place, shift);
       if (resolution != before && bitCount(kept) < most) kept |= 1u << place;
       before = resolution;
     }
@@ -70,9 +76,9 @@ Share share_of(uint slot, Limits limits) {
   if (light.type == NoIndex || light.view_count == 0u) return share;
   LightRequest request = Requests(push.requests).v[slot];
   uint shift = light_shift(slot, limits);
-  uint kept = kept_places(request, shift, limits.maps_per_light);
+  uint kept = kept_places(light, request, shift, limits.maps_per_light);
   for (uint left = kept; left != 0u; left &= left - 1u)
-    share.words += light.view_count * page_words_of(pages_of(resolution_of_place(request, uint(findLSB(left)), shift)));
+    share.words += light.view_count * page_words_of(pages_of(resolution_of_place(light, request, uint(findLSB(left)), shift)));
   share.maps = bitCount(kept);
   if (wants_whole(light)) {
     ++share.maps;
@@ -113,17 +119,19 @@ void write_maps(uint slot, Limits limits, inout Share at) {
   LightRecord light = Lights(frame.lights).v[slot];
   if (light.type != NoIndex && light.view_count > 0u) {
     LightRequest request = Requests(push.requests).v[slot];
-    maps.kept = kept_places(request, maps.shift, limits.maps_per_light);
+    maps.kept = kept_places(light, request, maps.shift, limits.maps_per_light);
     bool whole = wants_whole(light);
     maps.count = bitCount(maps.kept) + uint(whole);
     if (whole) maps.whole = at.maps + maps.count - 1u;
     uint left = maps.kept;
     for (uint i = 0u; i < maps.count; ++i) {
       bool is_whole = left == 0u;
-      uint resolution = is_whole ? whole_resolution(light, maps.shift) : resolution_of_place(request, uint(findLSB(left)), maps.shift);
+      uint place = is_whole ? 0u : uint(findLSB(left));
+      uint resolution = is_whole ? whole_resolution(light, maps.shift) : resolution_of_place(light, request, place, maps.shift);
+      uint first_view = light.first_view + (has_levels(light) && !is_whole ? SunFirstWindow + place : 0u);
       uint pages = pages_of(resolution);
       uint words = page_words_of(pages);
-      Maps(frame.maps).v[at.maps] = MapRecord(slot, light.first_view, light.view_count, light.views, resolution, pages, words, at.words, at.views,
+      Maps(frame.maps).v[at.maps] = MapRecord(slot, first_view, light.view_count, light.views, resolution, pages, words, at.words, at.views,
                                               is_whole ? (1u << light.view_count) - 1u : 0u, uint(is_whole), light.light_mask, NoIndex, 0u, resolution, 0u);
       ++at.maps;
       at.words += words * light.view_count;

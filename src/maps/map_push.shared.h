@@ -35,6 +35,7 @@ UMB_CONST uint MapsDropFacingAway = 8u;
 UMB_CONST uint MapsAllLights = 16u;     // every light gets a map of whole views
 UMB_CONST uint MapsWholeImages = 32u;   // the store backs whole images: place_maps has counted them
 UMB_CONST uint MapsSparse = 64u;        // the store backs blocks of `backing` texels, and maps below a page beforehand
+UMB_CONST uint MapsSunLevels = 128u;    // maps of directional lights are windows of levels (views/sun_levels.shared.h)
 
 /// Resolution of the maps that answer for points no depth buffer saw.
 UMB_CONST uint WholeResolution = 128u;
@@ -51,6 +52,7 @@ struct MapsPush {
   uint64_t demand;         // units [light slot][MaxShift + 1]
   uint64_t priority;       // slots, the most important first
   uint64_t views;
+  uint64_t level_bounds;   // per view of a sun's window: what receivers ask for of its level, ordered_bits of -lo and hi; 0: nothing
   uint flags;
   uint maps_per_light;
   uint round;
@@ -64,7 +66,16 @@ struct MapsPush {
   uint max_resolution;
   uint backing;            // texels that are backed at once: width | height << 16
 };
-UMB_ASSERT_SIZE(MapsPush, 120);
+UMB_ASSERT_SIZE(MapsPush, 128);
+
+struct PlaceLevelsPush {   // place_levels
+  uint64_t frame;
+  uint64_t requests;
+  uint64_t level_bounds;
+  uint max_resolution;     // of a window
+  uint levels_per_sun;
+};
+UMB_ASSERT_SIZE(PlaceLevelsPush, 32);
 
 struct PlaceMapsPush {     // place_maps
   uint64_t frame;

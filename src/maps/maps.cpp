@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "views/sun_levels.shared.h"
+
 namespace umbrage::maps {
 
 namespace {
@@ -13,6 +15,9 @@ constexpr uint32_t kRequest[] =
     ;
 constexpr uint32_t kBucket[] =
 #include "shaders/bucket_requests.comp.inc"
+    ;
+constexpr uint32_t kPlaceLevels[] =
+#include "shaders/place_levels.comp.inc"
     ;
 constexpr uint32_t kChoose[] =
 #include "shaders/choose_maps.comp.inc"
@@ -43,7 +48,7 @@ constexpr uint32_t kFit[] =
 Result<Maps> Maps::create(const gpu::PipelineFactory& factory) {
   Maps out;
   const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
-      {out.request_, kRequest, "request resolutions"}, {out.bucket_, kBucket, "bucket requests"}, {out.choose_, kChoose, "choose maps"},
+      {out.request_, kRequest, "request resolutions"}, {out.bucket_, kBucket, "bucket requests"}, {out.place_levels_, kPlaceLevels, "place levels"}, {out.choose_, kChoose, "choose maps"},
       {out.place_, kPlace, "place maps"}, {out.clear_, kClear, "clear marks"}, {out.mark_, kMark, "mark pages"},
       {out.count_pages_, kCountPages, "count pages"}, {out.count_blocks_, kCountBlocks, "count blocks"},
       {out.estimate_, kEstimate, "estimate demand"}, {out.fit_, kFit, "fit budget"}};
@@ -61,6 +66,7 @@ Result<void> Maps::reserve(const gpu::Device& device, gpu::Memory& memory, const
       {maps_, sizes.maps * sizeof(shared::MapRecord), "maps"},
       {light_maps_, lights * sizeof(shared::LightMaps), "maps of lights"},
       {requests_, lights * sizeof(shared::LightRequest), "requested resolutions"},
+      {level_bounds_, std::max(sizes.suns, 1u) * shared::SunViews * 4 * sizeof(uint32_t), "bounds of levels"},
       {demand_, lights * (shared::MaxShift + 1) * sizeof(uint32_t), "demand of lights"},
       {pair_requests_, sizes.pairs * sizeof(uint32_t), "resolutions of pairs"},
       {pair_maps_, sizes.pairs * sizeof(uint32_t), "maps of pairs"},
@@ -96,9 +102,10 @@ shared::MapsPush Maps::push(const Inputs& in) const {
   if (in.all_lights) flags |= shared::MapsAllLights;
   if (in.backing.whole_images) flags |= shared::MapsWholeImages;
   if (in.backing.images && !in.backing.whole_images) flags |= shared::MapsSparse;
+  if (has_sun_levels(in)) flags |= shared::MapsSunLevels;
   return {.frame = in.frame.address(), .counters = in.counters.address(), .requests = requests_.address(), .pair_requests = pair_requests_.address(),
           .pair_clusters = in.clusters.pair_clusters().address(), .used = in.clusters.used_lights().address(), .demand = demand_.address(),
-          .priority = in.scene.light_order_buffer().address(), .views = in.views.address(), .flags = flags, .maps_per_light = settings.maps_per_light,
+          .priority = in.scene.light_order_buffer().address(), .views = in.views.address(), .level_bounds = level_bounds_.address(), .flags = flags, .maps_per_light = settings.maps_per_light,
           .round = 0, .light_slots = in.scene.light_slots(), .capacity_units = in.backing.capacity_units, .word_capacity = sizes_.words,
           .receiver_capacity = std::min(sizes_.receiver_views, in.backing.most_views), .light_count = in.scene.light_count(), .undersampling = float(settings.undersampling),
           .min_resolution = settings.layout == MapLayout::levels ? std::max(settings.min_resolution, std::min(settings.merge_below, settings.max_resolution))
@@ -120,16 +127,18 @@ void Maps::request(gpu::Recorder& recorder, const Inputs& in) {
     gpu::Pass pass = recorder.pass("clear requests");
     pass.write(requests_, gpu::Access::transfer_write);
     pass.write(demand_, gpu::Access::transfer_write);
+    pass.write(level_bounds_, gpu::Access::transfer_write);
     const VkCommandBuffer commands = pass.commands();
     recorder.device().vk().vkCmdFillBuffer(commands, requests_.handle(), 0, VK_WHOLE_SIZE, 0);
     recorder.device().vk().vkCmdFillBuffer(commands, demand_.handle(), 0, VK_WHOLE_SIZE, 0);
+    recorder.device().vk().vkCmdFillBuffer(commands, level_bounds_.handle(), 0, VK_WHOLE_SIZE, 0);
   }
   const auto declare = [&](gpu::Pass& pass) {
     pass.read(in.frame), pass.read(in.scene.light_buffer()), pass.read(in.views);
     pass.read(in.clusters.boxes()), pass.read(in.clusters.cells()), pass.read(in.clusters.cones());
     pass.read(in.clusters.lights()), pass.read(in.clusters.pair_clusters());
     pass.read(in.counters), pass.read(in.counters, gpu::Access::indirect_read);
-    pass.write(requests_), pass.write(pair_requests_);
+    pass.write(requests_), pass.write(pair_requests_), pass.write(level_bounds_);
   };
   constexpr VkDeviceSize groups = offsetof(shared::FrameCounters, pair_groups);
   {
@@ -137,10 +146,22 @@ void Maps::request(gpu::Recorder& recorder, const Inputs& in) {
     declare(pass);
     pass.dispatch_indirect(request_, push, in.counters, groups);
   }
+  if (has_sun_levels(in)) place_levels(recorder, in);
   if (in.settings.layout != MapLayout::exact) return;
   gpu::Pass pass = recorder.pass("bucket requests");
   declare(pass);
   pass.dispatch_indirect(bucket_, push, in.counters, groups);
+}
+
+bool Maps::has_sun_levels(const Inputs& in) { return in.settings.layout == MapLayout::levels && !in.backing.images; }
+
+void Maps::place_levels(gpu::Recorder& recorder, const Inputs& in) {
+  if (in.scene.directional_lights() == 0) return;
+  gpu::Pass pass = recorder.pass("place levels");
+  const shared::PlaceLevelsPush push{.frame = pass.read(in.frame), .requests = pass.write(requests_), .level_bounds = pass.read(level_bounds_),
+                                     .max_resolution = in.settings.max_resolution, .levels_per_sun = in.settings.levels_per_sun};
+  pass.read(in.scene.light_buffer()), pass.read(in.scene.light_order_buffer()), pass.write(in.views);
+  pass.dispatch(place_levels_, push, (in.scene.directional_lights() + 31) / 32);
 }
 
 void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
@@ -149,7 +170,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
   {
     gpu::Scope scope(recorder, "choose maps");
     gpu::Pass pass = recorder.pass("choose maps");
-    pass.read(in.frame), pass.read(in.scene.light_buffer()), pass.read(requests_);
+    pass.read(in.frame), pass.read(in.scene.light_buffer()), pass.read(requests_), pass.read(in.views);
     pass.write(in.counters), pass.write(light_maps_), pass.write(maps_);
     pass.dispatch(choose_, push, 1);
   }
@@ -164,6 +185,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
     }
     gpu::Pass pass = recorder.pass("mark pages");
     pass.read(in.frame), pass.read(in.counters), pass.read(in.counters, gpu::Access::indirect_read), pass.read(in.views);
+    pass.read(in.scene.light_buffer());
     pass.read(in.clusters.boxes()), pass.read(in.clusters.lights()), pass.read(in.clusters.pair_clusters());
     pass.read(pair_requests_), pass.read(requests_), pass.read(light_maps_);
     pass.write(maps_), pass.write(pair_maps_), pass.write(page_bits_), pass.write(projection_), pass.write(receiver_depth_);

@@ -13,6 +13,7 @@ class Maps {
 
   struct Sizes {
     uint32_t light_slots = 0;
+    uint32_t suns = 0;            ///< Directional lights whose maps are levels.
     uint32_t pairs = 0;           ///< Capacity of the cluster/light lists.
     uint32_t maps = 0, words = 0, receiver_views = 0;
     uint32_t receiver_grid = 1;   ///< Cells along a view's side.
@@ -61,14 +62,17 @@ class Maps {
   /// Rounds in which the budget is fitted: as asked, by estimate, one halving more, the coarsest (which always fits).
   static constexpr uint32_t kRounds = 4;
   shared::MapsPush push(const Inputs&) const;
+  /// Are maps of directional lights windows of levels?
+  static bool has_sun_levels(const Inputs&);
   void request(gpu::Recorder&, const Inputs&);
+  void place_levels(gpu::Recorder&, const Inputs&);
   void fit(gpu::Recorder&, const Inputs&, uint32_t round);
   void place(gpu::Recorder&, const Inputs&);
   void count(gpu::Recorder&, const Inputs&, const shared::MapsPush&);
 
   Sizes sizes_;
-  gpu::Pipeline request_, bucket_, choose_, place_, clear_, mark_, count_pages_, count_blocks_, estimate_, fit_;
-  gpu::Buffer maps_, light_maps_, requests_, demand_, pair_requests_, pair_maps_, page_bits_, page_first_, projection_, receiver_depth_;
+  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, count_pages_, count_blocks_, estimate_, fit_;
+  gpu::Buffer maps_, light_maps_, requests_, level_bounds_, demand_, pair_requests_, pair_maps_, page_bits_, page_first_, projection_, receiver_depth_;
 };
 
 }  // namespace umbrage::maps

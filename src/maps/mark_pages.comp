@@ -43,6 +43,21 @@ void mark_receivers(FrameRecord frame, MapRecord map, uint view, ViewFootprint s
   }
 }
 
+/// The map of a directional light's level, or where its window does not hold the box, of the next coarser one that does.
+uint map_of_level(LightMaps maps, LightRecord light, float wanted, Box box) {
+  uint shift = maps.shift == MaxShift ? SunPlaces : maps.shift;
+  uint map = maps.first + sun_map_of_place(maps.kept, min(sun_place_of_request(wanted) + shift, SunPlaces - 1u));
+  uint last = maps.first + uint(bitCount(maps.kept)) - 1u;
+  ShadowView plane = Views(push.views).v[light.first_view + SunPlane];
+  SunRect rect = sun_overlap(sun_rect(plane, box.lo, box.hi), sun_casters(plane, Views(push.views).v[light.first_view]));
+  while (map < last) {
+    MapRecord level = Maps(Frame(push.frame).record.maps).v[map];
+    if (sun_window_holds(plane, Views(push.views).v[level.first_view], rect)) break;
+    ++map;
+  }
+  return map;
+}
+
 void main() {
   uint pair = global_index(64u);
   if (pair >= pair_count()) return;
@@ -55,17 +70,23 @@ void main() {
   uint slot = Uints(frame.cluster_lights).v[pair];
   LightMaps maps = LightMapList(frame.light_maps).v[slot];
   float wanted = uintBitsToFloat(request);
-  uint place;
-  if (has_flag(MapsExact)) {
-    float finest = uintBitsToFloat(Requests(push.requests).v[slot].finest);
-    place = bucket_of_request(wanted, finest, push.maps_per_light, !has_flag(MapsLinearBuckets));
+  LightRecord light = Lights(frame.lights).v[slot];
+  Box box = Boxes(frame.cluster_boxes).v[Uints(push.pair_clusters).v[pair]];
+  uint map_index;
+  if (has_levels(light)) {
+    map_index = map_of_level(maps, light, wanted, box);
   } else {
-    place = min(place_of_level(level_of_resolution(wanted)) + maps.shift, place_of_level(MinLevel));
+    uint place;
+    if (has_flag(MapsExact)) {
+      float finest = uintBitsToFloat(Requests(push.requests).v[slot].finest);
+      place = bucket_of_request(wanted, finest, push.maps_per_light, !has_flag(MapsLinearBuckets));
+    } else {
+      place = min(place_of_level(level_of_resolution(wanted)) + maps.shift, place_of_level(MinLevel));
+    }
+    map_index = maps.first + map_of_place(maps.kept, place);
   }
-  uint map_index = maps.first + map_of_place(maps.kept, place);
   Uints(frame.pair_maps).v[pair] = map_index;
   MapRecord map = Maps(frame.maps).v[map_index];
-  Box box = Boxes(frame.cluster_boxes).v[Uints(push.pair_clusters).v[pair]];
   for (uint face = 0u; face < map.view_count; ++face) {
     ShadowView view = Views(push.views).v[map.first_view + face];
     float margin = view_receiver_margin_m(view, map.kind, box.lo, box.hi, map.resolution);

@@ -13,8 +13,7 @@ float farthest_depth(LightRecord light, ShadowView view, Box box) {
   return max(dot(view.w_row, centre) + dot(abs(view.w_row), (box.hi - box.lo) * 0.5), light.near_m);
 }
 
-float request(FrameRecord frame, uint cluster, LightRecord light) {
-  Box box = Boxes(frame.cluster_boxes).v[cluster];
+float request(FrameRecord frame, uint cluster, Box box, LightRecord light) {
   uint cell = Uints(frame.cluster_cells).v[cluster];
   uint tile_index = cell / MaxSlices;
   uint slice = cell % MaxSlices;
@@ -23,6 +22,7 @@ float request(FrameRecord frame, uint cluster, LightRecord light) {
   if (has_flag(MapsDropFacingAway) && faces_away(Cones(frame.cluster_cones).v[cluster], sphere.xyz, sphere.w, light)) return 0.0;
   ShadowView view = Views(push.views).v[light.first_view];
   float pixel_m = nearest_pixel_m(frame.camera, box, slice);
+  if (has_levels(light)) return Views(push.views).v[light.first_view + SunPlane].side_m / pixel_m;
   if (light.views == ViewsOrtho) return view.side_m / pixel_m;
   if (!tight) sphere = cell_sphere(frame.camera, uvec2(tile_index % frame.camera.tiles.x, tile_index / frame.camera.tiles.x), slice);
   float pixels = tight ? box_pixels(frame.camera, box) : float(TileSide * TileSide);
@@ -34,6 +34,17 @@ float request(FrameRecord frame, uint cluster, LightRecord light) {
   return max(scaled, matching_resolution(farthest_depth(light, view, box), view.tangent, pixel_m));
 }
 
+/// Where receivers of a level lie.
+void ask_for_level(LightRecord light, uint place, Box box) {
+  ShadowView plane = Views(push.views).v[light.first_view + SunPlane];
+  SunRect rect = sun_overlap(sun_rect(plane, box.lo, box.hi), sun_casters(plane, Views(push.views).v[light.first_view]));
+  if (sun_rect_is_empty(rect)) return;
+  uint at = (light.first_view + SunFirstWindow + place) * 4u;
+  uint bits[4] = {ordered_bits(-rect.lo.x), ordered_bits(-rect.lo.y), ordered_bits(rect.hi.x), ordered_bits(rect.hi.y)};
+  for (uint i = 0u; i < 4u; ++i)
+    if (Uints(push.level_bounds).v[at + i] < bits[i]) atomicMax(Uints(push.level_bounds).v[at + i], bits[i]);
+}
+
 void main() {
   uint pair = global_index(64u);
   if (pair >= pair_count()) return;
@@ -43,15 +54,17 @@ void main() {
     FrameRecord frame = Frame(push.frame).record;
     uint slot = Uints(frame.cluster_lights).v[pair];
     LightRecord light = Lights(frame.lights).v[slot];
-    if (light.view_count > 0u) wanted = request(frame, cluster, light);
+    Box box = Boxes(frame.cluster_boxes).v[cluster];
+    if (light.view_count > 0u) wanted = request(frame, cluster, box, light);
     if (wanted > 0.0) {
-      wanted = clamp(wanted / push.undersampling, float(push.min_resolution), float(push.max_resolution));
-      wanted = min(wanted, float(light.resolution));
+      wanted /= push.undersampling;
+      if (!has_levels(light)) wanted = min(clamp(wanted, float(push.min_resolution), float(push.max_resolution)), float(light.resolution));
       uint bits = floatBitsToUint(wanted);
       if (Requests(push.requests).v[slot].finest < bits) atomicMax(Requests(push.requests).v[slot].finest, bits);
       if (!has_flag(MapsExact)) {
-        uint place = 1u << place_of_level(level_of_resolution(wanted));
-        if ((Requests(push.requests).v[slot].places & place) == 0u) atomicOr(Requests(push.requests).v[slot].places, place);
+        uint place = has_levels(light) ? sun_place_of_request(wanted) : place_of_level(level_of_resolution(wanted));
+        if (has_levels(light)) ask_for_level(light, place, box);
+        if ((Requests(push.requests).v[slot].places & 1u << place) == 0u) atomicOr(Requests(push.requests).v[slot].places, 1u << place);
       }
     }
   }

@@ -35,8 +35,8 @@ constexpr uint32_t kWriteResidentTexel[] =
 #include "shaders/write_resident_texel.frag.inc"
     ;
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT, kWords = VK_FORMAT_R32G32B32A32_UINT;
-constexpr std::array<VkFormat, 9> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats,
-                                              kFloats, kFloats, kWords,  kWords};
+constexpr std::array<VkFormat, 10> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats,
+                                               kFloats, kFloats, kWords,  kWords,  kFloats};
 
 /// attachment: null where fragments write what they like.
 void begin(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Image* attachment, uint32_t side) {

@@ -34,7 +34,7 @@ Result<PageFragments> PageFragments::create(const gpu::PipelineFactory& factory)
   if (!list) return list.error();
   out.list_ = std::move(*list);
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT, kWords = VK_FORMAT_R32G32B32A32_UINT;
-  constexpr std::array<VkFormat, 9> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats, kFloats, kFloats, kWords, kWords};
+  constexpr std::array<VkFormat, 10> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats, kFloats, kFloats, kWords, kWords, kFloats};
   for (uint32_t masked = 0; masked < 2; ++masked) {
     const gpu::DepthShaders shaders{.vertex = kCastVertex,
                                     .fragment = kWriteFragment,

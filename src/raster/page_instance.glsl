@@ -15,5 +15,6 @@ PageInstance page_instance(InstanceRecord instance, ShadowView view, MapRecord m
   drawn.uvs = instance.uvs;
   drawn.uv_stride = instance.uv_stride;
   drawn.first_word = map.first_word + face * map.words;
+  drawn.plane = vec4(view.x_offset, view.y_offset, view.grid, 0.0);
   return drawn;
 }

@@ -118,8 +118,9 @@ struct PageInstance {
   uint64_t uvs;
   uint uv_stride;
   uint first_word;           // of the view's page bits
+  vec4 plane;                // of the view: x_offset, y_offset, grid
 };
-UMB_ASSERT_SIZE(PageInstance, 144);
+UMB_ASSERT_SIZE(PageInstance, 160);
 
 struct ListDrawsPush {       // list_page_draws
   uint64_t frame;

@@ -50,8 +50,7 @@ UMB_FN vec4 clip_position(ShadowView view, uint kind, uint face, vec3 relative) 
     vec3 coordinates = face_coordinates(face, relative);
     return vec4(coordinates.x, coordinates.y, view.near_m, coordinates.z);
   }
-  return vec4(dot(view.x_row, relative), dot(view.y_row, relative), dot(view.z_row, relative) + view.z_offset,
-              dot(view.w_row, relative) + view.w_offset);
+  return clip_of_relative(view, relative);
 }
 
 /// Distance inside of a clip plane: near, far, then the sides of the guard band, which is `guard` times the view.

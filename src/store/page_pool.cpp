@@ -22,7 +22,8 @@ LeastRoom least_room_of_pool(uint64_t budget_bytes) {
   return {budget_bytes / kBytes, kBytes};
 }
 
-uint32_t number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, std::vector<uint32_t>& changed, std::vector<LightStatus>& without) {
+ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, uint32_t sun_views, std::vector<uint32_t>& changed,
+                      std::vector<LightStatus>& without) {
   without.clear();
   const auto views_of = [&](uint32_t slot) { return lights.at(slot).record.views == shared::ViewsCube ? shared::CubeFaceCount : 1u; };
   std::vector<uint32_t> casting;
@@ -41,20 +42,25 @@ uint32_t number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, s
     without.push_back({LightId{lights.id_at(slot)}, Degradation::no_map, views_of(slot) * room.bytes_per_view});
   }
   for (const uint32_t slot : casting) has_map[slot] = true;
-  uint32_t next = 0;
-  for (uint32_t slot = 0; slot < lights.slots(); ++slot) {
-    if (!lights.alive(slot)) continue;
+  ViewCount numbered;
+  const auto number = [&](uint32_t slot) {
     scene::HostLight& light = lights.at(slot);
     const uint32_t count = has_map[slot] ? views_of(slot) : 0;
     const uint32_t resolution = light.desc.max_resolution ? std::clamp(light.desc.max_resolution, 1u << shared::MinLevel, kFinest) : kFinest;
     shared::LightRecord& record = light.record;
-    if (record.first_view != next || record.view_count != count || record.resolution != resolution) {
-      record.first_view = next, record.view_count = count, record.resolution = resolution;
+    if (record.first_view != numbered.views || record.view_count != count || record.resolution != resolution) {
+      record.first_view = numbered.views, record.view_count = count, record.resolution = resolution;
       changed.push_back(slot);
     }
-    next += count;
-  }
-  return next;
+    const bool is_sun = count > 0 && record.views == shared::ViewsOrtho;
+    numbered.views += is_sun ? sun_views : count;
+    numbered.suns += is_sun;
+  };
+  // Suns first: a table of their views needs no room for others.
+  for (const bool suns : {true, false})
+    for (uint32_t slot = 0; slot < lights.slots(); ++slot)
+      if (lights.alive(slot) && (lights.at(slot).record.views == shared::ViewsOrtho) == suns) number(slot);
+  return numbered;
 }
 
 Result<PagePool> PagePool::create(const gpu::PipelineFactory& factory) {

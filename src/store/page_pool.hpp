@@ -4,6 +4,7 @@
 #include "gpu/prefix_sum.hpp"
 #include "maps/maps.hpp"
 #include "umbrage/stats.hpp"
+#include "views/sun_levels.shared.h"
 
 namespace umbrage::store {
 
@@ -14,9 +15,18 @@ struct LeastRoom {
 };
 LeastRoom least_room_of_pool(uint64_t budget_bytes);
 
+/// Views of a directional light whose maps are levels.
+inline constexpr uint32_t kSunViews = shared::SunViews;
+
+struct ViewCount {
+  uint32_t views = 0;
+  uint32_t suns = 0;   ///< Directional lights that cast shadows. Their views come first.
+};
 /// Numbers the views of lights that cast shadows. When not even the coarsest maps of all fit, lights go without by priority,
-/// then by slot (`without`). `changed`: slots whose records changed. Returns how many views there are.
-uint32_t number_views(IdPool<scene::HostLight>& lights, const LeastRoom&, std::vector<uint32_t>& changed, std::vector<LightStatus>& without);
+/// then by slot (`without`). `changed`: slots whose records changed. sun_views: numbers that a directional light takes; each of its
+/// maps has one of them.
+ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom&, uint32_t sun_views, std::vector<uint32_t>& changed,
+                      std::vector<LightStatus>& without);
 
 class PagePool {
  public:

@@ -1,4 +1,5 @@
-// The one abstraction: a picture taken from a light. A point light is six of them, a spot one, a directional light one.
+// The one abstraction: a picture taken from a light. A point light is six of them, a spot one, a directional light one, or one a
+// level (sun_levels.shared.h).
 #ifndef UMBRAGE_VIEWS_SHADOW_VIEW_SHARED_H
 #define UMBRAGE_VIEWS_SHADOW_VIEW_SHARED_H
 #include "views/cube_projection.shared.h"
@@ -12,7 +13,8 @@ UMB_CONST uint ViewsSpot = 1u;    // one perspective view
 UMB_CONST uint ViewsOrtho = 2u;   // one orthographic view
 
 /// A cube face, a spot's cone or an ortho box. Clip position of a world position p, with r = p - origin:
-/// (x_row·r, y_row·r, z_row·r + z_offset, w_row·r + w_offset); z/w is reversed, 1 at the near plane.
+/// (x_row·r + x_offset, y_row·r + y_offset, z_row·r + z_offset, w_row·r + w_offset); z/w is reversed, 1 at the near plane. With a
+/// grid, x_row·r and y_row·r are rounded to it before they are moved, so that they lie on the same steps wherever that is to.
 struct ShadowView {
   vec3 origin;
   float near_m;            // perspective
@@ -23,17 +25,26 @@ struct ShadowView {
   vec3 z_row;
   uint light;              // slot, or NoIndex: nothing to draw
   vec3 w_row;
-  uint resolution;         // fixed cubes: texels along a side
+  uint resolution;         // fixed cubes, windows of a sun: texels along a side
   uint atlas_x, atlas_y;   // fixed cubes: first texel
   float tangent;           // perspective: of the half-angle
   float side_m;            // ortho: world size of the view's side
+  float x_offset, y_offset;
+  float grid;              // steps in a unit of clip x and y, a power of two; 0: none
 };
-UMB_ASSERT_SIZE(ShadowView, 96);
+UMB_ASSERT_SIZE(ShadowView, 108);
 
-UMB_FN vec4 view_clip_position(ShadowView view, vec3 position_ws) {
-  vec3 r = position_ws - view.origin;
-  return vec4(dot(view.x_row, r), dot(view.y_row, r), dot(view.z_row, r) + view.z_offset, dot(view.w_row, r) + view.w_offset);
+/// Steps of the grid in a texel.
+UMB_CONST float ViewSubTexels = 256.0f;
+
+UMB_FN float on_grid(float x, float grid) { return grid > 0.0f ? roundEven(x * grid) / grid : x; }
+
+/// Of r = position - origin.
+UMB_FN vec4 clip_of_relative(ShadowView view, vec3 r) {
+  return vec4(on_grid(dot(view.x_row, r), view.grid) + view.x_offset, on_grid(dot(view.y_row, r), view.grid) + view.y_offset,
+              dot(view.z_row, r) + view.z_offset, dot(view.w_row, r) + view.w_offset);
 }
+UMB_FN vec4 view_clip_position(ShadowView view, vec3 position_ws) { return clip_of_relative(view, position_ws - view.origin); }
 
 UMB_FN ShadowView perspective_view(vec3 origin, float near_m, mat3 rotation, float tangent) {
   mat3 rows = transpose(rotation);
@@ -52,6 +63,9 @@ UMB_FN ShadowView perspective_view(vec3 origin, float near_m, mat3 rotation, flo
   view.light = 0u;
   view.atlas_x = 0u;
   view.atlas_y = 0u;
+  view.x_offset = 0.0f;
+  view.y_offset = 0.0f;
+  view.grid = 0.0f;
   return view;
 }
 
@@ -77,6 +91,9 @@ UMB_FN ShadowView ortho_view(vec3 direction, vec3 box_min, vec3 box_max, uint re
   view.light = 0u;
   view.atlas_x = 0u;
   view.atlas_y = 0u;
+  view.x_offset = 0.0f;
+  view.y_offset = 0.0f;
+  view.grid = 0.0f;
   return view;
 }
 
@@ -139,7 +156,7 @@ UMB_FN bool project_box_to_view(ShadowView view, uint kind, uint face, vec3 box_
   vec3 half_size = (box_max - box_min) * 0.5f;
   vec3 depth_row = kind == ViewsOrtho ? vec3(0.0f) - view.z_row : view.w_row;
   float depth_offset = kind == ViewsOrtho ? 1.0f - view.z_offset : 0.0f;
-  vec3 at = vec3(dot(view.x_row, centre), dot(view.y_row, centre), dot(depth_row, centre) + depth_offset);
+  vec3 at = vec3(dot(view.x_row, centre) + view.x_offset, dot(view.y_row, centre) + view.y_offset, dot(depth_row, centre) + depth_offset);
   vec3 extent = vec3(dot(abs(view.x_row), half_size), dot(abs(view.y_row), half_size), dot(abs(depth_row), half_size));
   seen.box.lo = at - extent;
   seen.box.hi = at + extent;

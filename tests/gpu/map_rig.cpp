@@ -33,8 +33,8 @@ reference::CasterView plain_view(const shared::ShadowView& view, uint32_t kind, 
   const glm::dvec3 origin(view.origin);
   if (kind == shared::ViewsSpot)
     return {.x = row(view.x_row, origin), .y = row(view.y_row, origin), .depth = row(view.w_row, origin)};
-  return {.x = row(view.x_row, origin),
-          .y = row(view.y_row, origin),
+  return {.x = row(view.x_row, origin, view.x_offset),
+          .y = row(view.y_row, origin, view.y_offset),
           .depth = row(-glm::dvec3(view.z_row), origin, 1 - double(view.z_offset)),
           .perspective = false};
 }

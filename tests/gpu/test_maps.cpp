@@ -10,6 +10,7 @@
 #include "pair_rig.hpp"
 #include "reference/clusters.hpp"
 #include "reference/maps.hpp"
+#include "sun_check.hpp"
 
 namespace umbrage::test {
 namespace {
@@ -79,10 +80,13 @@ struct Check {
   const SeenScene& scene;
   const FrameSettings& settings;
   const DeviceMaps& maps;
+  const SunCheck& suns;
   reference::MapRules rules = plain_rules(settings);
 
   const shared::LightRecord& light_of_pair(uint32_t pair) const { return maps.light_records[maps.lights[pair]]; }
   reference::MapLight plain_light_of(const shared::LightRecord& light) const { return plain_light(light, maps.views[light.first_view]); }
+  /// Are the light's maps windows of levels?
+  bool has_levels(const shared::LightRecord& light) const { return !rules.exact && light.views == shared::ViewsOrtho; }
 };
 
 struct Request {
@@ -108,6 +112,8 @@ Request expected_request(const Check& check, uint32_t pair) {
   Request request;
   request.resolution = reference::requested_resolution(
       light, check.rules, tight ? reference::covered_pixels(camera, box) : camera.tile_pixels, sphere, box, pixel_m);
+  if (check.has_levels(check.light_of_pair(pair)))
+    request.resolution = check.suns.plane(check.light_of_pair(pair)).request(pixel_m) / check.rules.undersampling;
   request.dropped = check.settings.facing_away == FacingAway::dropped && away > 0;
   request.close_call = std::abs(away) < 1e-3 || (light.kind != reference::MapKind::sun && std::abs(distance / sphere.radius - 1) < 1e-3);
   return request;
@@ -163,7 +169,8 @@ bool expect_maps_of_light(const Check& check, uint32_t slot, const std::vector<u
 }
 
 /// Maps lie one behind the other, by light, and so do their words and receivers.
-void expect_order(const DeviceMaps& maps) {
+void expect_order(const Check& check) {
+  const DeviceMaps& maps = check.maps;
   uint32_t next = 0, words = 0, views = 0;
   for (uint32_t slot = 0; slot < maps.light_maps.size(); ++slot) {
     const shared::LightMaps& own = maps.light_maps[slot];
@@ -176,7 +183,8 @@ void expect_order(const DeviceMaps& maps) {
       ASSERT_EQ(map.light, slot);
       ASSERT_EQ(map.first_word, words);
       ASSERT_EQ(map.first_receiver, views);
-      ASSERT_EQ(map.first_view, light.first_view);
+      const uint32_t view = map.first_view - light.first_view;
+      ASSERT_TRUE(view == 0 || (check.has_levels(light) && view <= reference::sun_places));
       ASSERT_EQ(map.view_count, light.view_count);
       ASSERT_EQ(map.pages, (map.resolution + reference::page_side - 1) / reference::page_side);
       ASSERT_EQ(map.words, (map.pages * map.pages + 31) / 32);
@@ -195,9 +203,11 @@ void expect_maps(const Check& check) {
     ASSERT_EQ(maps.pair_maps[pair] == shared::NoIndex, maps.pair_requests[pair] == 0) << "pair " << pair;
     if (maps.pair_requests[pair] > 0) pairs[maps.lights[pair]].push_back(pair);
   }
-  expect_order(maps);
+  expect_order(check);
   size_t close_calls = 0;
-  for (uint32_t slot = 0; slot < maps.light_maps.size(); ++slot) close_calls += !expect_maps_of_light(check, slot, pairs[slot]);
+  for (uint32_t slot = 0; slot < maps.light_maps.size(); ++slot)
+    close_calls += !(check.has_levels(maps.light_records[slot]) ? check.suns.expect_maps(slot, pairs[slot], check.settings)
+                                                                 : expect_maps_of_light(check, slot, pairs[slot]));
   EXPECT_LE(close_calls, maps.light_maps.size() / 10 + 1);
 }
 
@@ -237,7 +247,7 @@ void expect_marks(const Check& check) {
   size_t marked = 0;
   for (uint32_t m = 0; m < maps.maps.size(); ++m) {
     const shared::MapRecord& map = maps.maps[m];
-    const reference::MapLight light = check.plain_light_of(maps.light_records[map.light]);
+    const reference::MapLight light = plain_light(maps.light_records[map.light], maps.views[map.first_view]);
     for (uint32_t face = 0; face < map.view_count; ++face) {
       const shared::ShadowView& view = maps.views[map.first_view + face];
       const reference::CasterView plain = plain_view(view, map.kind, face);
@@ -277,7 +287,8 @@ void check_frame(PairRig& rig, const SeenScene& scene, const FrameSettings& sett
   SCOPED_TRACE(scene.name);
   rig.settle(settings);
   const DeviceMaps maps(rig);
-  const Check check{scene, settings, maps};
+  const SunCheck suns(maps, CasterTables(rig).all);
+  const Check check{scene, settings, maps, suns};
   expect_requests(check);
   expect_maps(check);
   expect_marks(check);

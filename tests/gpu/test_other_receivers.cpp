@@ -6,6 +6,7 @@
 
 #include "map_rig.hpp"
 #include "pair_rig.hpp"
+#include "ray_answers.hpp"
 
 namespace umbrage::test {
 namespace {
@@ -22,61 +23,11 @@ struct Point {
   uint32_t light;  // host_index
 };
 
-struct Triangle {
-  glm::dvec3 a, b, c;
-};
-
-std::vector<Triangle> triangles_of(const TestScene& scene) {
-  std::vector<Triangle> out;
-  for (const TestInstance& instance : scene.instances) {
-    const TestMesh& mesh = scene.meshes[instance.mesh];
-    const auto at = [&](size_t i) { return glm::dvec3(transform(instance.world_from_mesh, mesh.positions[mesh.indices[i]])); };
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) out.push_back({at(i), at(i + 1), at(i + 2)});
-  }
-  return out;
-}
-
-/// Distance along a unit ray to the nearest triangle; infinity: none.
-double cast(const std::vector<Triangle>& triangles, const glm::dvec3& origin, const glm::dvec3& ray) {
-  double nearest = INFINITY;
-  for (const Triangle& triangle : triangles) {
-    const glm::dvec3 u = triangle.b - triangle.a, v = triangle.c - triangle.a, normal = glm::cross(ray, v), offset = origin - triangle.a;
-    const double determinant = glm::dot(u, normal);
-    if (determinant == 0) continue;
-    const double s = glm::dot(offset, normal) / determinant;
-    if (s < 0 || s > 1) continue;
-    const glm::dvec3 across = glm::cross(offset, u);
-    const double t = glm::dot(ray, across) / determinant, distance = glm::dot(v, across) / determinant;
-    if (t >= 0 && s + t <= 1 && distance > 0) nearest = std::min(nearest, distance);
-  }
-  return nearest;
-}
-
-enum class Answer { lit, dark, open };
-
-/// What rays to everything within three texels of the point say; open: not the same.
-Answer answer_of(const std::vector<Triangle>& triangles, const LightDesc& light, const glm::dvec3& p, double sun_texel_m) {
-  const bool sun = light.type == LightType::directional;
-  const glm::dvec3 origin = sun ? p - 60.0 * glm::normalize(glm::dvec3(to_glm(light.direction))) : glm::dvec3(to_glm(light.position));
-  const double distance = glm::distance(p, origin);
-  const glm::dvec3 forward = (p - origin) / distance;
-  const glm::dvec3 u = glm::normalize(glm::cross(forward, std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0))),
-                   v = glm::cross(forward, u);
-  const double tangent =
-      light.type == LightType::spot && light.outer_cone_rad < shared::OneViewMaxOuterRad ? 1.2 * std::tan(light.outer_cone_rad) : 1;
-  const double texel_m = sun ? sun_texel_m : 2 * tangent * distance / kWholeTexels;
-  bool lit = true, dark = true;
-  for (int y = -3; y <= 3; ++y) {
-    for (int x = -3; x <= 3; ++x) {
-      const glm::dvec3 shift = (u * double(x) + v * double(y)) * texel_m;
-      const glm::dvec3 ray = sun ? forward : glm::normalize(p + shift - origin);
-      const double hit = cast(triangles, sun ? origin + shift : origin, ray);
-      lit = lit && hit > distance + 3 * texel_m;
-      dark = dark && hit < distance - 3 * texel_m;
-      if (!lit && !dark) return Answer::open;
-    }
-  }
-  return lit ? Answer::lit : Answer::dark;
+/// Width of a texel of a light's whole map at a point; suns: everywhere.
+double whole_texel_m(const LightDesc& light, const glm::dvec3& p, double sun_side_m) {
+  if (light.type == LightType::directional) return sun_side_m / kWholeTexels;
+  const bool one_view = light.type == LightType::spot && light.outer_cone_rad < shared::OneViewMaxOuterRad;
+  return 2 * (one_view ? 1.2 * std::tan(light.outer_cone_rad) : 1) * glm::distance(p, glm::dvec3(to_glm(light.position))) / kWholeTexels;
 }
 
 /// Opaque casters in the air, a ground, lights of every kind above.
@@ -149,10 +100,8 @@ TEST_F(OtherReceivers, AreAnsweredAsByRaysWhateverTheDepthBufferSaw) {
   std::vector<Answer> answers;
   for (const Point& point : points) {
     const LightDesc& light = scene.scene.lights[point.light];
-    const double sun_texel_m = light.type == LightType::directional
-                                   ? rig.views()[rig.lights()[slot_of(rig.light_ids[point.light])].first_view].side_m / kWholeTexels
-                                   : 0;
-    answers.push_back(answer_of(triangles, light, point.position, sun_texel_m));
+    const double sun_side_m = rig.views()[rig.lights()[slot_of(rig.light_ids[point.light])].first_view].side_m;
+    answers.push_back(answer_of(triangles, light, point.position, whole_texel_m(light, point.position, sun_side_m)));
   }
   for (const bool blank : {false, true}) {
     if (blank) rig.show(scene.camera, nothing);

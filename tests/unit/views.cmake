@@ -1,5 +1,5 @@
 # Shadow view math, and the projection of boxes onto cube faces in C++ and GLSL.
-foreach(name test_views test_cube_projection)
+foreach(name test_views test_cube_projection test_sun_levels)
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
   umbrage_flags(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
