@@ -28,7 +28,10 @@ void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (plan.store == Store::hardware_sparse) sparse.record_requests(recorder, maps, block, counters, requests);
 }
 
-void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
+void Frame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, gpu::RetireQueue& retired) {
+  // Directional lights → cascades, of which only what moved or came into view is drawn anew (C1…C8).
+  if (plan.cascades) cascades.record(recorder, {scene, block, caster_shape(), counters, plan.serial}, retired);
+
   if (scene.light_slots() > 0 && plan.store == Store::fixed_cubes) record_fixed_cubes(recorder, plan);
   if (scene.light_slots() > 0 && plan.store != Store::fixed_cubes) record_virtual_maps(recorder, plan);
 
@@ -96,6 +99,8 @@ void Frame::publish(gpu::Recorder& recorder, const FramePlan& plan) {
   if (plan.store != Store::fixed_cubes)
     for (const gpu::Buffer* buffer : maps.published()) published_.push_back(buffer);
   if (plan.store == Store::page_pool) published_.push_back(&pool.pool());
+  if (plan.cascades)
+    for (const gpu::Buffer* buffer : cascades.published()) published_.push_back(buffer);
   published_images_.assign({&store.atlas()});
   for (const gpu::Image* image : map_images(plan.store).published()) published_images_.push_back(image);
   recorder.publish(published_, published_images_, plan.consumer_stages);

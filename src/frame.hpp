@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "cascades/cascades.hpp"
 #include "clusters/clusters.hpp"
 #include "culling/caster_culling.hpp"
 #include "culling/map_culling.hpp"
@@ -25,6 +26,7 @@ struct FramePlan {
   glm::uvec2 tiles{0};
   NormalEncoding normal_encoding = NormalEncoding::none;
   bool all_lights = false;
+  bool cascades = false;
   uint32_t caster_rounds = 1;
   VkPipelineStageFlags2 consumer_stages = 0;
   uint64_t serial = 0;
@@ -45,7 +47,7 @@ struct Frame {
   /// 3…8: after the host's depth. Store::hardware_sparse: which pages are needed, for the host, goes to `requests`.
   void record_requests(gpu::Recorder&, const FramePlan&, const gpu::Buffer& requests);
   /// 9…11
-  void record_shadows(gpu::Recorder&, const FramePlan&);
+  void record_shadows(gpu::Recorder&, const FramePlan&, gpu::RetireQueue&);
   /// Counters and light states for the host, into `target` (FrameReport, then a word a light slot).
   void record_statistics(gpu::Recorder&, const gpu::Buffer& target);
 
@@ -79,6 +81,8 @@ struct Frame {
   store::FixedCubes store;
   culling::CasterCulling culling;
   raster::Writers writers;
+  // Of directional lights, beside any store
+  cascades::Cascades cascades;
   gpu::Buffer block, counters;
   uint32_t max_draws = 0;
 

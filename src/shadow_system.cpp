@@ -1,5 +1,6 @@
 // The public class: edits go to the scene, begin_frame decides everything that the host decides, record_* only records.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "shadow_system_state.hpp"
@@ -81,6 +82,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     Stopwatch watch(cpu_ms);
     if (auto valid = validate(Settings{.fixed = s.settings, .frame = desc.settings}); !valid) return valid.error();
     if (desc.serial <= s.last_serial) return invalid("FrameDesc::serial must grow: it is " + std::to_string(desc.serial) + " after " + std::to_string(s.last_serial));
+    if (!std::isfinite(desc.time_s)) return invalid("FrameDesc::time_s must be finite");
     if (desc.completed_serial >= desc.serial) return invalid("FrameDesc::completed_serial must be less than serial");
     if (desc.cameras.size() != 1) return invalid("FrameDesc::cameras: one camera is supported, not " + std::to_string(desc.cameras.size()));
     const CameraDesc& camera = desc.cameras[0];
@@ -94,7 +96,11 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.collect(desc.completed_serial);
     if (auto ok = s.lay_out_maps(desc.settings); !ok) return ok.error();
     if (auto ok = s.reserve(**slot, *record, desc); !ok) return ok.error();
-    if (auto ok = s.frame->scene.upload((*slot)->uploader, s.retired, desc.serial); !ok) return ok.error();
+    if (auto ok = s.begin_cascades(**slot, *record, desc); !ok) return ok.error();
+    if (auto ok = s.frame->scene.upload((*slot)->uploader, s.retired, desc.serial); !ok) {
+      s.frame->cascades.stop();
+      return ok.error();
+    }
 
     // Nothing below fails.
     for (gpu::Buffer& buffer : s.outgrown) s.retired.retire(std::move(buffer), desc.serial);
@@ -104,7 +110,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.next_slot = (s.next_slot + 1) % static_cast<uint32_t>(s.slots.size());
     if (s.edited) s.edit_serial = desc.serial, s.edited = false, s.caster_pairs_known = false;
     s.plan = {.settings = desc.settings, .store = s.settings.store, .tiles = record->tiles, .normal_encoding = camera.normal_encoding,
-              .all_lights = camera.other_receivers, .caster_rounds = s.plan_rounds(), .consumer_stages = desc.consumer_stages, .serial = desc.serial};
+              .all_lights = camera.other_receivers, .cascades = !s.cascade_lights.empty(), .caster_rounds = s.plan_rounds(), .consumer_stages = desc.consumer_stages, .serial = desc.serial};
     FrameBlock block{};
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
     s.fill_block(block, *record, *s.current);
@@ -115,6 +121,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     shared::FrameCounters counters{};
     counters.pair_limit = s.plan.caster_rounds * s.caster_pairs_per_round();
     s.current->uploader.copy(s.frame->counters, 0, &counters, sizeof counters);
+    if (s.plan.cascades) s.frame->cascades.upload(s.current->uploader);
     s.write_sets(*s.current, camera);
     s.current->without_map = s.without_map;
   }
@@ -138,8 +145,9 @@ void ShadowSystem::record_shadows(VkCommandBuffer commands) {
   assert((!binds_pages() || s.pages_bound) && "record_shadows comes after bind_pages");
   gpu::Recorder recorder = s.recorder(commands, *s.current);
   if (!binds_pages()) s.frame->record_requests(recorder, s.plan, s.current->page_requests);
-  s.frame->record_shadows(recorder, s.plan);
+  s.frame->record_shadows(recorder, s.plan, s.retired);
   s.frame->record_statistics(recorder, s.current->statistics);
+  if (s.plan.cascades) s.frame->cascades.record_statistics(recorder, s.current->cascade_states);
 }
 
 bool ShadowSystem::binds_pages() const { return state_->settings.store == Store::hardware_sparse; }

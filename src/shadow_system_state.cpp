@@ -121,6 +121,7 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   statistics.overflows += uint64_t(counters.clusters_found > counters.clusters) + uint64_t(counters.all_lights_used != 0) +
                           uint64_t(counters.caster_pairs > counters.pair_limit);
   statistics.lights_degraded = static_cast<uint32_t>(degraded.size());
+  read_cascade_statistics(slot);
 
   if (counters.pairs_found > pair_capacity) pair_capacity = counters.pairs_found + counters.pairs_found / 4;
   if (slot.serial >= edit_serial) {
@@ -176,8 +177,9 @@ uint64_t ShadowSystem::State::texel_bytes() const {
 }
 
 Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settings) {
-  const std::array<uint32_t, 2> wanted{frame_settings.min_resolution, frame_settings.max_resolution};
+  const std::array<uint32_t, 3> wanted{frame_settings.min_resolution, frame_settings.max_resolution, most_cascade_lights(frame_settings)};
   if (!frame->scene.lights_edited() && wanted == laid_out_for) return {};
+  choose_cascade_lights(frame_settings);
   std::vector<uint32_t> changed;
   if (settings.store == Store::page_pool) {
     const store::ViewCount numbered =
@@ -333,6 +335,7 @@ void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraReco
   frame->store.fill(record);
   record.tap_counts = slot.statistics.address();
   if (has_virtual_maps()) frame->maps.fill(record);
+  record.cascades = cascade_lights.empty() ? 0 : frame->cascades.table().address();
   record.store = shader_store();
   if (settings.store == Store::page_pool) frame->pool.fill(record);
   if (has_virtual_maps() && texel_bytes() == sizeof(uint16_t)) record.depth_step = 1.0f / 65535.0f;

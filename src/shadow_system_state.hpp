@@ -15,6 +15,8 @@ struct FrameSlot {
   gpu::Uploader uploader;
   gpu::FrameTimers timers;
   gpu::Buffer statistics;           // readback: FrameReport, then a word a light slot
+  gpu::Buffer cascade_states;       // readback, with cascades: CascadeState each
+  std::vector<CascadeStatistics> cascades;  // what the host knew of them
   gpu::Buffer page_requests;        // readback, hardware sparse: SparseRequests, then pages
   VkDescriptorSet frame_set = VK_NULL_HANDLE, host_set = VK_NULL_HANDLE;
   uint64_t serial = 0;              // 0: never used
@@ -23,6 +25,9 @@ struct FrameSlot {
   Statistics known;                 // what the host knew when it recorded
   std::vector<LightStatus> without_map;
 };
+
+/// Directional lights that can have cascades.
+uint32_t most_cascade_lights(const FrameSettings&);
 
 struct ShadowSystem::State {
   static constexpr uint32_t kMaxRounds = 128;
@@ -42,6 +47,9 @@ struct ShadowSystem::State {
   void read_statistics(const FrameSlot&);
   void read_map_statistics(const shared::FrameReport&);
   Result<void> lay_out_maps(const FrameSettings&);
+  void choose_cascade_lights(const FrameSettings&);
+  Result<void> begin_cascades(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
+  void read_cascade_statistics(const FrameSlot&);
   Result<void> reserve(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
   Result<void> reserve_fixed_cubes(const FrameDesc&);
   Result<void> reserve_virtual_maps(const FrameDesc&);
@@ -84,7 +92,8 @@ struct ShadowSystem::State {
   store::SparseLayout sparse_layout;
   bool pages_bound = false;         // in the frame that is recorded
   maps::Maps::Sizes map_sizes;      // virtual shadow maps: grown from what frames report
-  std::array<uint32_t, 2> laid_out_for{};   // min and max resolution
+  std::array<uint32_t, 3> laid_out_for{};   // min and max resolution; lights with cascades at most
+  std::vector<cascades::CascadeLight> cascade_lights;
   std::vector<LightStatus> without_map;
   std::vector<gpu::Buffer> outgrown;
   uint64_t last_serial = 0;
@@ -97,6 +106,7 @@ struct ShadowSystem::State {
   Statistics statistics;
   std::array<PassTime, gpu::FrameTimers::kMaxScopes> pass_times{};
   std::vector<LightStatus> degraded;
+  std::vector<CascadeStatistics> cascade_statistics;
   gpu::HazardLog* hazard_log = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// umbrage bench layered: every case, writer, size and number of maps; what an earlier run has measured is kept.
+// umbrage bench: the suites. layered: every case, writer, size and number of maps; what an earlier run has measured is kept.
 #include "commands/bench.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <ctime>
 #include <optional>
 
+#include "commands/bench_cascades.hpp"
 #include "commands/json_file.hpp"
 #include "commands/parse.hpp"
 #include "commands/progress.hpp"
@@ -230,9 +231,11 @@ class LayeredRun {
 }  // namespace
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
-  command.add_option("SUITE", options.suite, "layered: many views in one pass, Rákos' measurements")
+  command
+      .add_option("SUITE", options.suite,
+                  "layered: many views in one pass, Rákos' measurements; cascades: a sun's maps kept and scrolled")
       ->required()
-      ->check(CLI::IsMember({"layered"}));
+      ->check(CLI::IsMember({"layered", "cascades"}));
   command
       .add_option("-o,--output", options.folder,
                   "Where results.json, results.csv, figures and report.html go; resumed if they are there")
@@ -241,14 +244,18 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
   command
       .add_option(
           "--scene", options.scenes,
-          "layered: files of one mesh that the unskinned cases draw; repeatable; default: a ring of 35,600 triangles")
+          "Repeatable. layered: files of one mesh that the unskinned cases draw; default: a ring of 35,600 triangles. "
+          "cascades: files or builtin:NAME; default: builtin:houses")
       ->type_name("FILE");
   command.add_option("--device", options.device, "Which GPU: an index of umbrage info, or part of a name")
       ->type_name("NAME-OR-INDEX");
   command.add_flag_callback(
-      "--quick", [&options] { options.is_quick = true; }, "Few map counts, sizes and repeats");
+      "--quick", [&options] { options.is_quick = true; }, "Fewer sizes, repeats and frames");
 }
 
-Result<void> run_bench(const BenchOptions& options, Outputs& outputs) { return LayeredRun(options, outputs).run(); }
+Result<void> run_bench(const BenchOptions& options, Outputs& outputs) {
+  if (options.suite == "cascades") return run_cascades_bench(options, outputs);
+  return LayeredRun(options, outputs).run();
+}
 
 }  // namespace app

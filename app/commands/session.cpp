@@ -22,14 +22,6 @@ using umbrage::Result;
 constexpr std::string_view kBuiltinPrefix = "builtin:";
 constexpr uint32_t kMaxRepeats = 4;
 
-/// Where the desktop's conventions keep what can be made again; empty when the environment names no place.
-std::string batch_cache_folder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  if (cache && *cache) return std::string(cache) + "/umbrage/batches";
-  const char* home = std::getenv("HOME");
-  return home && *home ? std::string(home) + "/.cache/umbrage/batches" : std::string();
-}
-
 uint32_t warmup_frames(size_t frames) {
   return frames < 2 ? 0 : static_cast<uint32_t>(std::clamp<size_t>(frames / 4, 1, 10));
 }
@@ -76,12 +68,21 @@ Result<void> check_show(const SharedOptions& options, const umbrage::Settings& s
   const bool has_pages = settings.fixed.store == umbrage::Store::page_pool || settings.fixed.store == umbrage::Store::hardware_sparse;
   if (info->needs == ShowNeeds::page_pool && !has_pages)
     return invalid(name + ": needs maps made of pages: choose a preset with store=page_pool, such as default");
+  if (info->needs == ShowNeeds::cascades && settings.frame.cascades == umbrage::CascadeMode::none)
+    return invalid(name + ": needs cascades: choose a preset such as cascades-scrolled");
   if (info->light == ShowLight::ignored && options.show_light)
     return invalid(name + ": is not about one light: leave out --show-light");
   return {};
 }
 
 }  // namespace
+
+std::string batch_cache_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache && *cache) return std::string(cache) + "/umbrage/batches";
+  const char* home = std::getenv("HOME");
+  return home && *home ? std::string(home) + "/.cache/umbrage/batches" : std::string();
+}
 
 Result<Scene> load_scene(const std::string& name) {
   if (name.starts_with(kBuiltinPrefix)) return builtin_scene(std::string_view(name).substr(kBuiltinPrefix.size()));
@@ -147,6 +148,7 @@ Result<void> Session::draw(uint32_t frame) {
                          .lights = lights_,
                          .camera = camera_.at(pose_, time_s),
                          .settings = settings_.frame,
+                         .time_s = time_s,
                          .show = options_.show,
                          .show_light = options_.show_light};
   // Lists that were too short have been sized for the next frame by this one: drawn again, the frame is whole.

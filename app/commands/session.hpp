@@ -17,6 +17,9 @@ namespace app {
 /// `builtin:NAME` or a file.
 umbrage::Result<Scene> load_scene(const std::string& name);
 
+/// Where the desktop's conventions keep what can be made again; empty when the environment names no place.
+std::string batch_cache_folder();
+
 /// Times of a run: medians over its frames after a warm-up of a quarter of them (1…10); of one frame: that frame's.
 struct RunTimes {
   double frame_ms = 0, wall_ms = 0, cpu_record_ms = 0;

@@ -144,6 +144,7 @@ Result<void> Renderer::State::begin_frame(const FrameInput& input, const CameraM
   frame.serial = serial + 1;
   frame.completed_serial = completed;
   frame.settings = input.settings;
+  frame.time_s = input.time_s;
   frame.cameras = {&camera_desc, 1};
   frame.consumer_stages = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
                           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -251,6 +252,8 @@ Result<FrameReport> Renderer::State::report() const {
     for (const umbrage::PassTime& pass : made.statistics.passes) add_pass(made.passes, pass);
   }
   made.statistics.passes = {};
+  made.cascades.assign(made.statistics.cascades.begin(), made.statistics.cascades.end());
+  made.statistics.cascades = {};
   const gpu::GpuCounters& counters = data.read_counters();
   made.lighting_computations = uint64_t{counters.lighting_computations_high} << 32 | counters.lighting_computations_low;
   made.degraded.assign(system.degraded_lights().begin(), system.degraded_lights().end());

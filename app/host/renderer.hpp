@@ -39,10 +39,10 @@ struct NeededWork {
 
 enum class Show : uint8_t {
   image, clusters, explicit_bounds, lights_per_pixel, normals, depth, resolution, texels_per_pixel, pages,
-  triangles_per_map, projection_maps, cube_projection
+  triangles_per_map, projection_maps, cube_projection, cascades
 };
 enum class ShowLight : uint8_t { ignored, used };   ///< What becomes of FrameInput::show_light.
-enum class ShowNeeds : uint8_t { nothing, page_pool };
+enum class ShowNeeds : uint8_t { nothing, page_pool, cascades };
 struct ShowInfo {
   Show show;
   const char* name;                 ///< As --show takes it.
@@ -66,6 +66,7 @@ struct FrameInput {
   std::span<const ActiveLight> lights;
   ViewCamera camera;
   umbrage::FrameSettings settings;
+  double time_s = 0;                ///< Of the animation, or whatever clock the frames follow.
   Show show = Show::image;
   std::optional<uint32_t> show_light;   ///< Index in lights that the debug picture is about; else it chooses.
 };
@@ -77,6 +78,7 @@ struct FrameReport {
   std::vector<std::pair<std::string, double>> passes;  ///< GPU ms: the host's and the library's, in order.
   uint64_t lighting_computations = 0;   ///< Lights summed over pixels.
   umbrage::Statistics statistics;   ///< Its spans are not valid here.
+  std::vector<umbrage::CascadeStatistics> cascades;
   std::vector<umbrage::LightStatus> degraded;
 };
 

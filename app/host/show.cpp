@@ -18,6 +18,9 @@ constexpr uint32_t show_maps[] =
 constexpr uint32_t show_projection[] =
 #include "shaders/show_projection.comp.inc"
     ;
+constexpr uint32_t show_cascades[] =
+#include "shaders/show_cascades.comp.inc"
+    ;
 constexpr uint32_t choose_light[] =
 #include "shaders/choose_light.comp.inc"
     ;
@@ -58,6 +61,8 @@ constexpr ShowInfo show_infos[] = {
      ShowLight::used, ShowNeeds::page_pool},
     {Show::cube_projection, "cube-projection", "the box of the cluster in the middle on the virtual cube of its light",
      ShowLight::used},
+    {Show::cascades, "cascades", "the cascades of a directional light: finished (grey), taken over (blue), newly drawn (red)",
+     ShowLight::used, ShowNeeds::cascades},
 };
 
 uint32_t shader_show(Show show) {
@@ -84,6 +89,8 @@ uint32_t shader_show(Show show) {
       return gpu::ShowProjectionMaps;
     case Show::cube_projection:
       return gpu::ShowCubeProjection;
+    case Show::cascades:
+      return gpu::ShowCascades;
     case Show::image:
       break;
   }
@@ -99,6 +106,7 @@ std::string title_of(Show show, std::optional<uint32_t> light) {
   if (show == Show::triangles_per_map) return "triangles drawn into the map" + of_light;
   if (show == Show::projection_maps) return "receiver tiles (bright: far) and pages of light";
   if (show == Show::cube_projection) return "cluster on the cube of light";
+  if (show == Show::cascades) return "no directional light with cascades";
   return {};
 }
 
@@ -128,6 +136,7 @@ Result<ShowPass> ShowPass::create(const GpuContext& context, VkPipelineLayout la
   const Wanted all[] = {{&pass.debug_, show_debug, "show debug"},
                         {&pass.maps_, show_maps, "show maps"},
                         {&pass.projection_, show_projection, "show projection maps"},
+                        {&pass.cascades_, show_cascades, "show cascades"},
                         {&pass.choose_light_, choose_light, "choose light"},
                         {&pass.choose_receiver_, choose_receiver, "choose receiver"}};
   for (const Wanted& wanted : all) {
@@ -173,6 +182,8 @@ void ShowPass::record(PassContext& pass, Show show, std::optional<uint32_t> ligh
   if (show == Show::projection_maps) {
     dispatch(pass, push, choose_light_.get(), 1, 1);
     dispatch(pass, push, projection_.get(), columns, rows);
+  } else if (show == Show::cascades) {
+    dispatch(pass, push, cascades_.get(), columns, rows);
   } else if (show == Show::resolution || show == Show::texels_per_pixel || show == Show::pages ||
              show == Show::triangles_per_map) {
     dispatch(pass, push, maps_.get(), columns, rows);

@@ -18,7 +18,7 @@ class ShowPass {
   void dispatch(const PassContext&, const gpu::ShowPush&, VkPipeline, uint32_t x, uint32_t y) const;
   void begin_lines(const PassContext&, const gpu::ShowPush&, VkPipeline) const;
   void end_lines(const PassContext&) const;
-  Handle<VkPipeline> debug_, maps_, projection_, choose_light_, choose_receiver_, boxes_, lines_;
+  Handle<VkPipeline> debug_, maps_, projection_, cascades_, choose_light_, choose_receiver_, boxes_, lines_;
   DeviceBuffer subject_;  ///< GpuSubject, then a GpuLightUse per light.
 };
 

@@ -37,6 +37,7 @@ struct CameraDesc {
 struct FrameDesc {
   uint64_t serial = 0;                     ///< Larger than that of the frame before; starts at 1.
   uint64_t completed_serial = 0;           ///< The newest frame whose submission the device has finished; 0 = none.
+  double time_s = 0;                       ///< The host's clock: how long casters have stood still (FrameSettings::static_after_ms).
   FrameSettings settings;
   std::span<const CameraDesc> cameras;     ///< One camera for now.
   /// Stages that read the results after record_shadows.

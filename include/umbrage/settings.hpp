@@ -61,6 +61,16 @@ enum class Writer : uint8_t {
   fragments,    ///< Page pool: one multi-draw without attachments, an atomic for every fragment.
 };
 
+/// How directional lights keep cascaded maps ("CSM Scrolling"); other lights keep the store's.
+enum class CascadeMode : uint8_t {
+  none,              ///< No cascades: maps in the store, as every light has.
+  redraw,            ///< Everything is drawn into every cascade each frame.
+  cached,            ///< Maps of static casters are kept while the camera stands still (C2).
+  scrolled,          ///< And are scrolled when it moves (C3), with the paper's sets corrected (E17, E18).
+  scrolled_literal,  ///< With the sets as printed: casters across the old border are missing.
+  guard_band,        ///< Larger maps, in which the volume moves about until it leaves them (C8).
+};
+
 /// Fixed for the life of a system: what sizes its memory.
 struct StaticSettings {
   uint32_t frames_in_flight = 2;             ///< 1…4.
@@ -89,6 +99,15 @@ struct FrameSettings {
   uint32_t merge_below = 128;                ///< Levels: coarser requests share the map of this one; small maps cost triangles. 4…8192.
   uint32_t min_resolution = 16;              ///< Texels along a map's side, a power of two, 4…8192. Less only where the budget is short.
   uint32_t max_resolution = 8192;            ///< Likewise; at least min_resolution. Fixed cubes have 16…1024.
+  CascadeMode cascades = CascadeMode::none;
+  uint32_t cascade_count = 4;                ///< Of a light, 1…8.
+  uint32_t cascade_resolution = 512;         ///< Texels along a side, a power of two, 64…4096. Three maps of 4 bytes a texel.
+  uint32_t cascade_distance_m = 200;         ///< From the camera, where the last one ends; beyond it directional lights cast no shadow. 1…100000.
+  uint32_t cascade_log_percent = 80;         ///< Splits: 0 evenly spaced, 100 logarithmic.
+  uint32_t cascade_reach_m = 100;            ///< Of the depth range towards the light; more costs depth precision, less redraws what stands beyond. 0…100000.
+  uint32_t cascade_guard_texels = 64;        ///< guard_band: on each side; more memory, fewer redraws. A power of two, 8…1024.
+  uint32_t cascade_blend_percent = 10;       ///< Of a cascade's depth, in which it fades into the next; 0…50.
+  uint32_t static_after_ms = 10000;          ///< Casters that have stood still so long (FrameDesc::time_s) are static. 0…86400000.
 };
 
 struct Settings {

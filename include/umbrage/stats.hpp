@@ -14,6 +14,22 @@ struct PassTime {
   double gpu_ms = 0;
 };
 
+/// One cascade of a directional light in one frame.
+struct CascadeStatistics {
+  enum class Action : uint8_t { kept, scrolled, cleared };
+  Action action = Action::cleared;      ///< Of the map of static casters.
+  uint32_t light = 0;                   ///< LightDesc::host_index.
+  float begin_m = 0, end_m = 0;         ///< View depths of its sub-frustum.
+  float texel_m = 0;
+  uint32_t side = 0;                    ///< Texels.
+  uint32_t texels_exposed = 0;          ///< Of the static map: drawn anew.
+  uint32_t static_casters = 0;          ///< Batches listed for the static map.
+  uint32_t active_casters = 0;          ///< And for the finished one.
+  uint32_t occluded_casters = 0;        ///< Of both, not drawn.
+  uint64_t static_triangles = 0;        ///< Of the batches drawn.
+  uint64_t active_triangles = 0;
+};
+
 struct Statistics {
   uint64_t serial = 0;                  ///< The frame these belong to; 0 = none finished yet.
   std::span<const PassTime> passes;     ///< In order of execution. Valid until the next begin_frame.
@@ -43,6 +59,7 @@ struct Statistics {
   uint32_t pages_bound = 0;             ///< Hardware sparse: newly, by bind_pages;
   uint32_t pages_unbound = 0;           ///< and given up.
   double bind_ms = 0;                   ///< CPU time of bind_pages, its waiting included.
+  std::span<const CascadeStatistics> cascades;  ///< Light by light, near to far. Valid until the next begin_frame.
   double cpu_record_ms = 0;             ///< begin_frame + record_scene + record_shadows.
 };
 

@@ -44,29 +44,29 @@ void fill(gpu::Recorder& recorder, const gpu::Buffer& buffer, const char* name) 
 }
 }  // namespace
 
-Result<Cascades> Cascades::create(const gpu::PipelineFactory& factory) {
-  Cascades out;
-  const auto make = [&](gpu::Pipeline& target, std::span<const uint32_t> spirv, const char* name,
-                        uint32_t masked) -> Result<void> {
-    auto made = factory.compute(spirv, name, {{0, masked}});
-    if (!made) return made.error();
-    target = std::move(*made);
-    return {};
-  };
+Result<void> Cascades::prepare(const gpu::PipelineFactory& factory) {
+  if (note_.handle()) return {};
   const struct {
     gpu::Pipeline& target;
     std::span<const uint32_t> spirv;
     const char* name;
-    uint32_t masked;
-  } all[] = {
-      {out.note_, kNote, "note moved casters", 0},       {out.plan_, kPlan, "plan cascades", 0},
-      {out.scroll_, kScroll, "scroll maps", 0},          {out.list_, kList, "list casters", 0},
-      {out.plan_draws_, kPlanDraws, "plan draws", 0},    {out.compose_, kCompose, "compose maps", 0},
-      {out.draw_[0], kDraw, "draw casters", 0},          {out.draw_[1], kDraw, "draw casters, masked", 1},
-      {out.draw_large_[0], kDrawLarge, "draw large", 0}, {out.draw_large_[1], kDrawLarge, "draw large, masked", 1}};
-  for (const auto& entry : all)
-    if (auto ok = make(entry.target, entry.spirv, entry.name, entry.masked); !ok) return ok.error();
-  return out;
+    uint32_t masked = 0;
+  } all[] = {{plan_, kPlan, "plan cascades"},
+             {scroll_, kScroll, "scroll maps"},
+             {list_, kList, "list casters"},
+             {plan_draws_, kPlanDraws, "plan draws"},
+             {compose_, kCompose, "compose maps"},
+             {draw_[0], kDraw, "draw casters"},
+             {draw_[1], kDraw, "draw casters, masked", 1},
+             {draw_large_[0], kDrawLarge, "draw large triangles"},
+             {draw_large_[1], kDrawLarge, "draw large triangles, masked", 1},
+             {note_, kNote, "note moved casters"}};  // the last tells that all are there
+  for (const auto& entry : all) {
+    auto made = factory.compute(entry.spirv, entry.name, {{0, entry.masked}});
+    if (!made) return made.error();
+    entry.target = std::move(*made);
+  }
+  return {};
 }
 
 /// Times grow with every frame, or a caster that moved in this one could look as if it had stood still in the last.
@@ -84,7 +84,8 @@ void Cascades::tick(double time_s) {
 
 Result<void> Cascades::begin(const gpu::Device& device, gpu::Memory& memory, const scene::GpuScene& scene,
                              const FrameInputs& in, std::vector<gpu::Buffer>& retired) {
-  begins_ = last_serial_ == 0 || in.serial != last_serial_ + 1 || table_.now >= shared::NeverMoves / 2;
+  begins_ = !is_recorded_ || table_.now >= shared::NeverMoves / 2;
+  is_recorded_ = false;
   tick(in.time_s);
   const size_t lights = std::min<size_t>(in.lights.size(), shared::MaxCascades / in.settings.count);
   const auto records = planner_.plan(in.camera, in.lights.first(lights), in.settings, !begins_);
@@ -96,13 +97,11 @@ Result<void> Cascades::begin(const gpu::Device& device, gpu::Memory& memory, con
   table_.static_after = in.settings.static_after;
   table_.blend = in.settings.blend;
   const VkBuffer former_maps = maps_.handle();
-  last_serial_ = 0;  // an error leaves nothing known
   if (auto ok = reserve(device, memory, std::max(scene.caster_slots(), 1u), retired); !ok) return ok;
   for (shared::CascadeRecord& record : std::span(table_.records, table_.cascades)) {
     if (in.fresh || maps_.handle() != former_maps) record.flags &= ~shared::CascadeHolds;
     if (in.fresh) record.flags |= shared::CascadeAllStatic;
   }
-  last_serial_ = in.serial;
   table_.states = states_.address();
   table_.maps = maps_.address();
   table_.farthest = farthest_.address();
@@ -146,7 +145,6 @@ void Cascades::write_maps(gpu::Pass& pass) const {
 }
 
 void Cascades::record(gpu::Recorder& recorder, const Inputs& in, gpu::RetireQueue& retired) {
-  gpu::Scope scope(recorder, "cascades");
   if (states_are_new_) fill(recorder, states_, "clear cascade states");
   states_are_new_ = false;
   moved_at_.record(recorder, retired, in.serial);
@@ -156,21 +154,18 @@ void Cascades::record(gpu::Recorder& recorder, const Inputs& in, gpu::RetireQueu
                            .casters = in.scene.caster_buffer().address(),
                            .instances = in.scene.instance_buffer().address()};
   record_moved(recorder, in, push);
+  is_recorded_ = true;
   if (table_.cascades == 0) return;
   record_scroll(recorder, push);
   record_lists(recorder, in);
+  record_draws(recorder, in, push, false);
   {
-    gpu::Scope statics(recorder, "draw static casters");
-    record_draws(recorder, in, push, false);
-  }
-  {
-    gpu::Scope compose(recorder, "compose maps");
+    gpu::Scope compose(recorder, "cascades: compose");
     clear_cells(recorder);
     gpu::Pass pass = recorder.pass("compose maps");
     write_maps(pass);
     pass.dispatch(compose_, push, row_groups(), table_.cascades);
   }
-  gpu::Scope actives(recorder, "draw active casters");
   record_draws(recorder, in, push, true);
 }
 
@@ -178,7 +173,7 @@ void Cascades::record_moved(gpu::Recorder& recorder, const Inputs& in, shared::C
   push.moved = begins_ ? 0 : in.scene.moved_casters();
   push.count = begins_ ? in.scene.caster_slots() : in.scene.moved_caster_count();
   if (push.count == 0) return;
-  gpu::Scope scope(recorder, "note moved casters");
+  gpu::Scope scope(recorder, "cascades: note moved");
   gpu::Pass pass = recorder.pass("note moved casters");
   pass.read(table_buffer_), pass.read(in.scene.caster_buffer()), pass.read(in.scene.instance_buffer());
   pass.write(states_), pass.write(moved_at_.buffer()), pass.write(known_boxes_.buffer());
@@ -189,7 +184,7 @@ void Cascades::record_moved(gpu::Recorder& recorder, const Inputs& in, shared::C
 void Cascades::clear_cells(gpu::Recorder& recorder) { fill(recorder, farthest_, "clear cells"); }
 
 void Cascades::record_scroll(gpu::Recorder& recorder, shared::CascadePush& push) {
-  gpu::Scope scope(recorder, "scroll maps");
+  gpu::Scope scope(recorder, "cascades: scroll");
   {
     gpu::Pass pass = recorder.pass("plan cascades");
     pass.read(table_buffer_);
@@ -204,7 +199,7 @@ void Cascades::record_scroll(gpu::Recorder& recorder, shared::CascadePush& push)
 }
 
 void Cascades::record_lists(gpu::Recorder& recorder, const Inputs& in) {
-  gpu::Scope scope(recorder, "list casters");
+  gpu::Scope scope(recorder, "cascades: list");
   const scene::BoxTree& tree = in.scene.caster_tree();
   gpu::Pass pass = recorder.pass("list casters");
   pass.read(in.frame);
@@ -241,6 +236,7 @@ void Cascades::record_draws(gpu::Recorder& recorder, const Inputs& in, shared::C
                                 .large_capacity = kLargeTriangles,
                                 .draws_actives = actives};
   {
+    gpu::Scope scope(recorder, actives ? "cascades: draw active" : "cascades: draw static");
     gpu::Pass pass = recorder.pass("draw casters");
     write_maps(pass);
     pass.read(arguments_, gpu::Access::indirect_read);
@@ -255,6 +251,7 @@ void Cascades::record_draws(gpu::Recorder& recorder, const Inputs& in, shared::C
                                    : offsetof(shared::CascadeArguments, static_groups));
   }
   record_plan_draws(recorder, push, shared::PlanLarges);
+  gpu::Scope scope(recorder, "cascades: draw large");
   gpu::Pass pass = recorder.pass("draw large triangles");
   write_maps(pass);
   pass.read(arguments_, gpu::Access::indirect_read);
@@ -262,6 +259,19 @@ void Cascades::record_draws(gpu::Recorder& recorder, const Inputs& in, shared::C
   pass.read(larges_);
   pass.read(in.scene.batch_buffer());
   pass.dispatch_indirect(draw_large_[masked], draw, arguments_, offsetof(shared::CascadeArguments, large_groups));
+}
+
+void Cascades::record_statistics(gpu::Recorder& recorder, const gpu::Buffer& target) const {
+  {
+    gpu::Pass pass = recorder.pass("cascade statistics");
+    pass.read(states_, gpu::Access::transfer_read);
+    pass.write(target, gpu::Access::transfer_write);
+    const VkBufferCopy region{0, 0, states_.size()};
+    recorder.device().vk().vkCmdCopyBuffer(pass.commands(), states_.handle(), target.handle(), 1, &region);
+  }
+  gpu::Pass pass = recorder.pass("cascade statistics to host");
+  pass.read(target, gpu::Access::host_read);
+  pass.commands();
 }
 
 }  // namespace umbrage::cascades

@@ -9,21 +9,20 @@ namespace umbrage::cascades {
 
 class Cascades {
  public:
-  static Result<Cascades> create(const gpu::PipelineFactory&);
+  /// Makes the pipelines, before the first begin.
+  Result<void> prepare(const gpu::PipelineFactory&);
 
   struct FrameInputs {
     const shared::CameraRecord& camera;
     std::span<const CascadeLight> lights;  ///< The first MaxCascades / count of them have cascades.
     CascadeSettings settings;
-    double time_s = 0;    ///< The host's clock; stillness is measured with it. What runs backwards counts as standing.
-    bool fresh = false;   ///< Every map is drawn anew from everything in its volume: what each mode must come to.
-    uint64_t serial = 0;  ///< Of the frame: a gap means that nothing is known of casters any more.
+    double time_s = 0;   ///< The host's clock; stillness is measured with it. What runs backwards counts as standing.
+    bool fresh = false;  ///< Every map is drawn anew from everything in its volume: what each mode must come to.
   };
   /// Plans the frame and makes room for it. On error nothing has changed but the room.
   Result<void> begin(const gpu::Device&, gpu::Memory&, const scene::GpuScene&, const FrameInputs&,
                      std::vector<gpu::Buffer>& retired);
   void upload(gpu::Uploader&) const;
-  VkDeviceSize staged_bytes() const { return sizeof table_; }
 
   struct Inputs {
     const scene::GpuScene& scene;
@@ -34,13 +33,17 @@ class Cascades {
   };
   /// All passes, from what moved to finished maps.
   void record(gpu::Recorder&, const Inputs&, gpu::RetireQueue&);
-  /// Without cascades: what is known of casters goes stale.
-  void stop() { last_serial_ = 0; }
+  /// Copies the states to a buffer that the host reads.
+  void record_statistics(gpu::Recorder&, const gpu::Buffer& target) const;
+  /// A frame that has begun without them, or will not be recorded: what is known of casters and maps goes stale.
+  void stop() { is_recorded_ = false; }
 
   /// shared::CascadeTable of the frame, and what it points to.
   const gpu::Buffer& table() const { return table_buffer_; }
   const gpu::Buffer& states() const { return states_; }
   const gpu::Buffer& maps() const { return maps_; }
+  /// What lookups read.
+  std::array<const gpu::Buffer*, 3> published() const { return {&table_buffer_, &states_, &maps_}; }
   const shared::CascadeTable& planned() const { return table_; }
   VkDeviceSize map_bytes() const { return maps_.size(); }
 
@@ -61,9 +64,9 @@ class Cascades {
   shared::CascadeTable table_{};
   gpu::Buffer table_buffer_, states_, arguments_, maps_, farthest_, items_, larges_;
   gpu::GrownBuffer moved_at_, known_boxes_;
-  uint64_t last_serial_ = 0;
   uint32_t item_capacity_ = 0, most_side_ = 0;
   double first_time_s_ = 0;
+  bool is_recorded_ = false;  ///< The frame before: its casters and maps are known.
   bool begins_ = true, states_are_new_ = true;
 };
 

@@ -52,6 +52,15 @@ ivec2 sub_texels(vec3 grid) {
          ivec2(round_to_int(part.x), round_to_int(part.y));
 }
 
+void draw_cells(GridTriangle t, TexelRect rect) {
+  const int cell = int(CellTexels);
+  for (ivec2 first = rect.first; first.y <= rect.last.y;) {
+    draw_cell(t, cascade.side, first, min(first + cell - 1, rect.last));
+    first.x += cell;
+    if (first.x > rect.last.x) first = ivec2(rect.first.x, first.y + cell);
+  }
+}
+
 /// a, b, c: grid positions within MostTexels.
 void draw_triangle(vec3 a, vec3 b, vec3 c, vec2 uv[3]) {
   ivec2 p0 = sub_texels(a);
@@ -95,7 +104,7 @@ void draw_triangle(vec3 a, vec3 b, vec3 c, vec2 uv[3]) {
     is_queued = place < push.large_capacity;
     t.regions = regions;
     if (is_queued) GridTriangles(push.larges).v[place] = t;
-    else draw_texels(t, cascade.side, rect.first, rect.last);
+    else draw_cells(t, rect);
   }
 }
 

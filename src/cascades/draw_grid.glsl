@@ -36,30 +36,42 @@ void draw_texel(Uints maps, uint word, GridTriangle t, vec3 weights, float level
   if (key < maps.v[word] && !(masked && is_cut_out(t, weights, level))) atomicMin(maps.v[word], key);
 }
 
-/// Texels first … last. 64-bit edge functions: the triangle may be as large as it likes.
-void draw_texels(GridTriangle t, uint side, ivec2 first, ivec2 last) {
+/// Texels first … last, at most CellTexels wide and high. Edge functions start from 64 bits and step in 32.
+void draw_block(GridTriangle t, uint side, ivec2 first, ivec2 last) {
   ivec3 step_x = grid_steps_x(t);
   ivec3 step_y = grid_steps_y(t);
   Uints maps = Uints(Table(push.table).v.maps);
   float level = masked && t.batch != NoIndex ? grid_mask_level(t) : 0.0;
   ivec2 at = first * SubTexels + SubTexels / 2;
-  int64_t e0 = int64_t(step_x.x) * int64_t(at.x - t.x1) + int64_t(step_y.x) * int64_t(at.y - t.y1) - int64_t(edge_rule(step_x.x, step_y.x));
-  int64_t e1 = int64_t(step_x.y) * int64_t(at.x - t.x2) + int64_t(step_y.y) * int64_t(at.y - t.y2) - int64_t(edge_rule(step_x.y, step_y.y));
-  int64_t e2 = int64_t(step_x.z) * int64_t(at.x - t.x0) + int64_t(step_y.z) * int64_t(at.y - t.y0) - int64_t(edge_rule(step_x.z, step_y.z));
+  EdgeStart a = start_edge(step_x.x, step_y.x, at.x - t.x1, at.y - t.y1);
+  EdgeStart b = start_edge(step_x.y, step_y.y, at.x - t.x2, at.y - t.y2);
+  EdgeStart c = start_edge(step_x.z, step_y.z, at.x - t.x0, at.y - t.y0);
+  ivec3 row = ivec3(a.value, b.value, c.value);
+  vec3 fractions = vec3(a.fraction, b.fraction, c.fraction);
   for (int y = first.y; y <= last.y; ++y) {
-    int64_t a0 = e0;
-    int64_t a1 = e1;
-    int64_t a2 = e2;
+    ivec3 edges = row;
+    uint word = t.target + uint(y) * side + uint(first.x);
     for (int x = first.x; x <= last.x; ++x) {
-      if ((a0 | a1 | a2) >= 0l) draw_texel(maps, t.target + uint(y) * side + uint(x), t, vec3(float(a0), float(a1), float(a2)), level);
-      a0 += int64_t(step_x.x) * int64_t(SubTexels);
-      a1 += int64_t(step_x.y) * int64_t(SubTexels);
-      a2 += int64_t(step_x.z) * int64_t(SubTexels);
+      if ((edges.x | edges.y | edges.z) >= 0) draw_texel(maps, word, t, (vec3(edges) + fractions) * float(SubTexels), level);
+      edges += step_x;
+      ++word;
     }
-    e0 += int64_t(step_y.x) * int64_t(SubTexels);
-    e1 += int64_t(step_y.y) * int64_t(SubTexels);
-    e2 += int64_t(step_y.z) * int64_t(SubTexels);
+    row += step_y;
   }
+}
+
+/// Sub-texels along an edge with which 32 bits last for a block.
+const int MostStep = 1 << 25;
+
+/// Texels first … last, at most CellTexels wide and high, of a triangle of any size.
+void draw_cell(GridTriangle t, uint side, ivec2 first, ivec2 last) {
+  ivec3 most = max(abs(grid_steps_x(t)), abs(grid_steps_y(t)));
+  if (max(most.x, max(most.y, most.z)) <= MostStep) {
+    draw_block(t, side, first, last);
+    return;
+  }
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x) draw_block(t, side, ivec2(x, y), ivec2(x, y));
 }
 
 /// The same with 32 bits, for triangles of up to SmallTexels texels.

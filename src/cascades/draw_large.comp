@@ -31,7 +31,7 @@ void main() {
       ivec2 last = min(first + cell - 1, rect.last);
       if (misses(step_x.x, step_y.x, ivec2(t.x1, t.y1), first, last) || misses(step_x.y, step_y.y, ivec2(t.x2, t.y2), first, last) ||
           misses(step_x.z, step_y.z, ivec2(t.x0, t.y0), first, last)) continue;
-      draw_texels(t, cascade.side, first, last);
+      draw_cell(t, cascade.side, first, last);
     }
   }
 }

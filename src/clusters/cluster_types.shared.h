@@ -73,8 +73,9 @@ struct FrameRecord {
   uint map_capacity;
   float depth_step;          // of stored depths: what rounding may make of one more than it is; 0: 32 bits
   uint pad;
+  uint64_t cascades;         // CascadeTable, or 0
 };
-UMB_ASSERT_SIZE(FrameRecord, 400);
+UMB_ASSERT_SIZE(FrameRecord, 408);
 
 /// FrameRecord::store.
 UMB_CONST uint StoreAtlas = 0u;

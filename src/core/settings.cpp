@@ -32,13 +32,14 @@ constexpr std::array<Choice, 3> kSparseTexels{{{"automatic", 0}, {"words", 1}, {
 constexpr std::array<Choice, 2> kLayout{{{"exact", 0}, {"levels", 1}}};
 constexpr std::array<Choice, 2> kResolution{{{"paper", 0}, {"corrected", 1}}};
 constexpr std::array<Choice, 2> kBuckets{{{"logarithmic", 0}, {"linear", 1}}};
+constexpr std::array<Choice, 6> kCascades{{{"none", 0}, {"redraw", 1}, {"cached", 2}, {"scrolled", 3}, {"scrolled_literal", 4}, {"guard_band", 5}}};
 constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
 
 #define UMB_FIELD(path)                                                                    \
   [](const Settings& s) { return static_cast<uint32_t>(s.path); },                         \
       [](Settings& s, uint32_t v) { s.path = static_cast<decltype(s.path)>(v); }
 
-const std::array<Field, 22> kFields{{
+const std::array<Field, 31> kFields{{
     {{"cluster_bounds", "implicit_cell|explicit_bits", "bounds of a cluster: its cell, or tight ones from three 10-bit number lines (O9)"},
      UMB_FIELD(frame.cluster_bounds), kBounds},
     {{"light_assignment", "hierarchy|brute_force", "lights per cluster through the 32-way light tree, or every pair tested"},
@@ -71,6 +72,21 @@ const std::array<Field, 22> kFields{{
      UMB_FIELD(frame.min_resolution), {}, 4, 8192, true},
     {{"max_resolution", "4..8192, a power of two", "texels along a map's side at most; fixed cubes: up to 1024, the largest that fits the budget"},
      UMB_FIELD(frame.max_resolution), {}, 4, 8192, true},
+    {{"cascades", "none|redraw|cached|scrolled|scrolled_literal|guard_band",
+      "directional lights: maps in the store, or cascades drawn anew, kept while the camera stands, scrolled (corrected, as printed), in a guard band"},
+     UMB_FIELD(frame.cascades), kCascades},
+    {{"cascade_count", "1..8", "cascades of a directional light"}, UMB_FIELD(frame.cascade_count), {}, 1, 8},
+    {{"cascade_resolution", "64..4096, a power of two", "texels along a cascade's side; three maps of 4 bytes a texel"},
+     UMB_FIELD(frame.cascade_resolution), {}, 64, 4096, true},
+    {{"cascade_distance_m", "1..100000", "metres from the camera to the end of the last cascade; no shadows of directional lights beyond"},
+     UMB_FIELD(frame.cascade_distance_m), {}, 1, 100000},
+    {{"cascade_log_percent", "0..100", "splits: 0 evenly spaced, 100 logarithmic"}, UMB_FIELD(frame.cascade_log_percent), {}, 0, 100},
+    {{"cascade_reach_m", "0..100000", "metres of a cascade's depth range towards the light; more costs depth precision, less redraws what stands beyond"},
+     UMB_FIELD(frame.cascade_reach_m), {}, 0, 100000},
+    {{"cascade_guard_texels", "8..1024, a power of two", "guard_band: texels on each side; more memory, fewer redraws"},
+     UMB_FIELD(frame.cascade_guard_texels), {}, 8, 1024, true},
+    {{"cascade_blend_percent", "0..50", "percent of a cascade's depth in which it fades into the next"}, UMB_FIELD(frame.cascade_blend_percent), {}, 0, 50},
+    {{"static_after_ms", "0..86400000", "milliseconds without motion after which a caster is static"}, UMB_FIELD(frame.static_after_ms), {}, 0, 86400000},
     {{"frames_in_flight", "1..4", "frames recorded before the first has retired"}, UMB_FIELD(fixed.frames_in_flight), {}, 1, 4},
     {{"budget_mib", "4..16384", "MiB of depth texels; tables are reported apart"}, UMB_FIELD(fixed.budget_mib), {}, 4, 16384},
     {{"batch_triangles", "32..1024", "triangles in a batch at most (O4); small ones cull better, large ones cost fewer tests"},
@@ -127,10 +143,17 @@ Settings stored(Store store) {
   return settings;
 }
 
+/// Cascades of directional lights beside the default for the others.
+Settings cascaded(CascadeMode mode) {
+  Settings settings;
+  settings.frame.cascades = mode;
+  return settings;
+}
+
 constexpr auto kCell = ClusterBounds::implicit_cell, kTight = ClusterBounds::explicit_bits;
 constexpr auto kPmcd = CasterCulling::projection_map_depth;
 
-const std::array<Preset, 18> kPresets{{
+const std::array<Preset, 23> kPresets{{
     {"default", "virtual maps in levels, texels that match pixels, culled on the receiver grid", Settings{}},
     {"fixed-cubes", "one cube map per light, one resolution for all that fits the budget, every face gets every batch in range", fixed_cubes()},
     {"naive", "the paper's baseline: matched resolution, every batch in the light's sphere to all six faces", paper(CasterCulling::light_volume, kCell)},
@@ -149,6 +172,12 @@ const std::array<Preset, 18> kPresets{{
     {"PMCD-EB-physical", "PMCD-EB in the paper's fallback: a fixed set of whole cube maps, the next free one of the closest size (O14)",
      stored(Store::physical_pool)},
     {"PMCD-EB-sparse", "PMCD-EB in hardware sparse images: only pages that lookups touch have memory, bound by the host (O13)", stored(Store::hardware_sparse)},
+    {"cascades-redraw", "directional lights: 4 cascades of 512 x 512, everything drawn into them each frame", cascaded(CascadeMode::redraw)},
+    {"cascades-cached", "cascades whose static casters are drawn again only when the camera has moved (C2)", cascaded(CascadeMode::cached)},
+    {"cascades-scrolled", "cascades scrolled with the camera: static casters are drawn only where they come into view (C3)", cascaded(CascadeMode::scrolled)},
+    {"cascades-scrolled-literal", "the same with the paper's sets as printed, which forget casters across the old border (E17, E18)",
+     cascaded(CascadeMode::scrolled_literal)},
+    {"cascades-guard-band", "larger cascades that are drawn anew when the camera leaves their guard band (C8)", cascaded(CascadeMode::guard_band)},
     {"default-u2", "default with every resolution halved", [] { Settings s; s.frame.undersampling = 2; return s; }()},
 }};
 }  // namespace

@@ -98,3 +98,37 @@ UMB_FN float debug_receiver_depth(Frame frame, DebugMap map, uint view, vec2 pla
   uint first = UmbrageMapList(f.v[0].maps).v[map.index].first_receiver;
   return uintBitsToFloat(UmbrageUints(f.v[0].receiver_depth).v[((first + view) * side + cell.y) * side + cell.x]);
 }
+
+/// Cascades of a light, near to far; 0: the light has none. index: Light::index.
+UMB_FN uint debug_cascade_count(Frame frame, uint index) {
+  return first_cascade(frame, index) == NoIndex ? 0u : UmbrageCascadeTables(UmbrageFrames(frame.address).v[0].cascades).v[0].count;
+}
+
+/// Texels along a cascade's side.
+UMB_FN uint debug_cascade_side(Frame frame, uint index, uint cascade) {
+  UmbrageCascadeTables table = UmbrageCascadeTables(UmbrageFrames(frame.address).v[0].cascades);
+  return table.v[0].records[first_cascade(frame, index) + cascade].side;
+}
+
+/// What a cascade's texel holds, as heights above the volume's far side in units of its width; below 0 where nothing is. x: the
+/// finished map; y: the static one as it was taken over from the frame before; z: what was drawn onto that. Of a map that was
+/// kept, y is all of it.
+UMB_FN vec3 debug_cascade_heights(Frame frame, uint index, uint cascade, uvec2 texel) {
+  UmbrageCascadeTables table = UmbrageCascadeTables(UmbrageFrames(frame.address).v[0].cascades);
+  uint i = first_cascade(frame, index) + cascade;
+  CascadeRecord record = table.v[0].records[i];
+  CascadeState state = UmbrageCascadeStates(table.v[0].states).v[i];
+  UmbrageUints words = UmbrageUints(table.v[0].maps);
+  uint at = record.first_texel + texel.y * record.side + texel.x;
+  uint front = words.v[state.front * table.v[0].texels + at];
+  uint finished = state.shows_work != 0u ? words.v[2u * table.v[0].texels + at] : front;
+  uint taken = state.action == MapIsKept ? front : ClearDepth;
+  ivec2 from = ivec2(texel) + ivec2(record.origin.x - record.former.x, record.origin.y - record.former.y);
+  if (state.action == MapIsScrolled && min(from.x, from.y) >= 0 && max(from.x, from.y) < int(record.side)) {
+    uint back = (1u - state.front) * table.v[0].texels + record.first_texel + uint(from.y) * record.side + uint(from.x);
+    taken = scrolled_depth(words.v[back], record.origin.z - record.former.z);
+  }
+  uint drawn = front == taken ? ClearDepth : front;
+  vec3 heights = vec3(float(FarDepth) - vec3(float(finished), float(taken), float(drawn))) * record.unit_m / (float(record.side) * record.texel_m);
+  return heights;
+}

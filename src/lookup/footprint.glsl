@@ -1,11 +1,29 @@
 // How large shadow texels are on a surface; a part of umbrage.glsl.
 
+/// Slides a step along the ray through the point until it lies on the receiver's plane; grazing planes are cut off at a slope of 50.
+UMB_FN vec3 step_on_plane(vec3 texel_step, vec3 ray, vec3 normal) {
+  float slope = dot(normal, ray);
+  float least = 0.02f * length(ray);
+  if (abs(slope) < least) slope = slope < 0.0f ? -least : least;
+  return texel_step - ray * (dot(normal, texel_step) / slope);
+}
+
 /// One step along each axis of the shadow map used at a point, as vectors on the receiver's plane (0 for lights without one).
 void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws, out vec3 du_ws, out vec3 dv_ws) {
   uint slot = light_slot(frame, cluster, i);
   LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
   du_ws = vec3(0.0f);
   dv_ws = vec3(0.0f);
+  uint first = record.type == LightDirectional ? first_cascade(frame, slot) : NoIndex;
+  if (first != NoIndex) {
+    UmbrageCascadeTables table = UmbrageCascadeTables(UmbrageFrames(frame.address).v[0].cascades);
+    uint index = cascade_at(table, first, camera_depth(frame, position_ws), position_ws);
+    if (index == NoIndex) return;
+    CascadeRecord cascade = table.v[0].records[index];
+    du_ws = step_on_plane(cascade.x_row * (cascade.texel_m * cascade.texel_m), cascade.z_row, normal_ws);
+    dv_ws = step_on_plane(cascade.y_row * (cascade.texel_m * cascade.texel_m), cascade.z_row, normal_ws);
+    return;
+  }
   if (record.view_count == 0u) return;
   Map map = map_of_pair(frame, cluster, i, slot);
   if (map.resolution == 0u) return;
@@ -32,10 +50,6 @@ void umbrage_texel_footprint(Frame frame, Cluster cluster, uint i, vec3 position
     step_u = x_axis * size;
     step_v = y_axis * size;
   }
-  // Slid along the ray until it lies on the plane; grazing planes are cut off at a slope of 50.
-  float slope = dot(normal_ws, ray);
-  float least = 0.02f * length(ray);
-  if (abs(slope) < least) slope = slope < 0.0f ? -least : least;
-  du_ws = step_u - ray * (dot(normal_ws, step_u) / slope);
-  dv_ws = step_v - ray * (dot(normal_ws, step_v) / slope);
+  du_ws = step_on_plane(step_u, ray, normal_ws);
+  dv_ws = step_on_plane(step_v, ray, normal_ws);
 }

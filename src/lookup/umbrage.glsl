@@ -18,6 +18,7 @@
 
 #include "clusters/cluster_types.shared.h"
 #include "maps/map_types.shared.h"
+#include "cascades/cascade_table.shared.h"
 
 #define UMBRAGE_REFERENCE(name, type, align) \
   layout(buffer_reference, scalar, buffer_reference_align = align) readonly buffer name { type v[]; }
@@ -144,6 +145,7 @@ uvec2 umbrage_cluster_cell(Frame frame, Cluster cluster) {
 
 #include "lookup/find_map.glsl"
 #include "lookup/nine_taps.glsl"
+#include "lookup/cascades.glsl"
 
 UMB_FN float visibility_in_map(Frame frame, LightRecord light, Map map, vec3 position_ws, vec3 normal_ws, inout TapPage last) {
   if (light.views == ViewsOrtho) return visibility_ortho(frame, map, light.first_view, position_ws, normal_ws, last);
@@ -166,6 +168,10 @@ UMB_FN void count_taps(Frame frame, uint unbacked, uint unmarked) {
 float umbrage_visibility(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws) {
   uint slot = light_slot(frame, cluster, i);
   LightRecord light = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
+  if (light.type == LightDirectional) {
+    uint cascade = first_cascade(frame, slot);
+    if (cascade != NoIndex) return visibility_cascades(frame, cascade, position_ws, normal_ws);
+  }
   if (light.view_count == 0u) return 1.0f;
   Map map = map_of_pair(frame, cluster, i, slot);
   if (map.resolution == 0u) return 0.0f;

@@ -86,7 +86,7 @@ Result<void> GpuScene::ensure_buffers() {
 }
 
 VkDeviceSize GpuScene::staged_bytes() const {
-  VkDeviceSize bytes = 4096;
+  VkDeviceSize bytes = 16384;  // of the frame itself
   for (const uint32_t id : new_meshes_) {
     const Mesh& mesh = *meshes_.find(id);
     bytes += padded(mesh.positions.size() * sizeof(Vec3)) + padded(mesh.uvs.size() * sizeof(Vec2)) +

@@ -23,6 +23,9 @@ struct ScenePipelines {
 struct HostLight {
   LightDesc desc;
   shared::LightRecord record{};
+  bool has_cascades = false;
+  /// In the store.
+  bool needs_map() const { return desc.casts_shadow && !has_cascades; }
 };
 
 class GpuScene {

@@ -11,7 +11,7 @@ namespace {
 constexpr uint64_t kTexelBytes = sizeof(uint32_t);
 
 uint32_t views_of(const scene::HostLight& light) {
-  if (!light.desc.casts_shadow) return 0;
+  if (!light.needs_map()) return 0;
   return light.record.views == shared::ViewsCube ? shared::CubeFaceCount : 1;
 }
 

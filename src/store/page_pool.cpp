@@ -29,7 +29,7 @@ ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, 
   std::vector<uint32_t> casting;
   uint64_t views = 0;
   for (uint32_t slot = 0; slot < lights.slots(); ++slot) {
-    if (!lights.alive(slot) || !lights.at(slot).desc.casts_shadow) continue;
+    if (!lights.alive(slot) || !lights.at(slot).needs_map()) continue;
     casting.push_back(slot);
     views += views_of(slot);
   }

@@ -25,9 +25,12 @@ CascadeRig::CascadeRig(Gpu& gpu, const TestScene& test_scene, std::vector<cascad
     instances.push_back(take(scene_.add_instance(
         {.mesh = meshes_[instance.mesh], .world_from_mesh = instance.world_from_mesh, .mobility = instance.mobility})));
   set_sun(sun);
-  for (const cascades::CascadeSettings& mode : settings)
-    modes_.push_back(
-        {mode, take(cascades::Cascades::create(gpu.factory())), take(cascades::Cascades::create(gpu.factory()))});
+  for (const cascades::CascadeSettings& mode : settings) {
+    Mode& made = modes_.emplace_back();
+    made.settings = mode;
+    take(made.stage.prepare(gpu.factory()));
+    take(made.fresh.prepare(gpu.factory()));
+  }
   frame_ = gpu.buffer(sizeof(shared::TreeShape), gpu::MemoryKind::device, "frame");
   counters_ = gpu.buffer(sizeof(shared::FrameCounters), gpu::MemoryKind::device, "counters");
 }
@@ -50,8 +53,7 @@ void CascadeRig::frame(const CameraDesc& desc, double seconds) {
                          .lights = {&sun_, 1},
                          .settings = mode.settings,
                          .time_s = time_s_,
-                         .fresh = stage == &mode.fresh,
-                         .serial = serial_},
+                         .fresh = stage == &mode.fresh},
                         outgrown));
       stage->upload(tables);
     }

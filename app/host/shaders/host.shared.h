@@ -139,6 +139,7 @@ const uint ShowPages = 8u;
 const uint ShowProjectionMaps = 9u;
 const uint ShowCubeProjection = 10u;
 const uint ShowTriangles = 11u;
+const uint ShowCascades = 12u;
 
 /// Morph, then skin, one thread a vertex.
 struct DeformPush {
