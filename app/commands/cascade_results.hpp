@@ -9,7 +9,7 @@
 
 namespace app {
 
-/// One mode in one motion; numbers are per frame: means, of times medians.
+/// One mode in one motion; numbers are means over the frames unless they say otherwise.
 struct CascadeRow {
   std::string scene, motion, preset;
   uint32_t frames = 0;

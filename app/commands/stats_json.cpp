@@ -66,6 +66,26 @@ void add_counts(Json& document, const FrameReport& report) {
   document["degraded"] = std::move(degraded);
 }
 
+/// Near to far, light by light.
+Json cascades_array(const FrameReport& report) {
+  constexpr const char* kActions[] = {"kept", "scrolled", "cleared"};
+  Json cascades = Json::array();
+  for (const umbrage::CascadeStatistics& cascade : report.cascades)
+    cascades.push_back({{"light", cascade.light},
+                        {"begin_m", cascade.begin_m},
+                        {"end_m", cascade.end_m},
+                        {"texel_m", cascade.texel_m},
+                        {"side", cascade.side},
+                        {"static_map", kActions[static_cast<size_t>(cascade.action)]},
+                        {"texels_exposed", cascade.texels_exposed},
+                        {"static_casters", cascade.static_casters},
+                        {"active_casters", cascade.active_casters},
+                        {"occluded_casters", cascade.occluded_casters},
+                        {"static_triangles", cascade.static_triangles},
+                        {"active_triangles", cascade.active_triangles}});
+  return cascades;
+}
+
 Json event(const char* track_name, int track, const std::string& name, double start_ms, double length_ms) {
   return {{"name", name},          {"cat", track_name},      {"ph", "X"}, {"pid", 1}, {"tid", track},
           {"ts", start_ms * 1000}, {"dur", length_ms * 1000}};
@@ -94,6 +114,7 @@ Json stats_document(Session& session) {
   document["cpu_record_ms"] = times.cpu_record_ms;
   document["passes"] = passes_object(session.report());
   add_counts(document, session.report());
+  document["cascades"] = cascades_array(session.report());
   return document;
 }
 

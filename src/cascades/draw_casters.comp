@@ -15,6 +15,7 @@ CascadeRecord cascade;
 CascadeState state;
 uint target;
 uint mask_batch;   // NoIndex: opaque
+TexelRect reach;   // around the regions
 
 /// True if nothing that the caster covers could be nearer than the static casters drawn before (C4).
 bool is_occluded(GridBox box, TexelRect within) {
@@ -45,6 +46,16 @@ uint seen_regions() {
   return seen;
 }
 
+TexelRect rect_around(uint regions) {
+  TexelRect around = TexelRect(ivec2(int(cascade.side)), ivec2(-1));
+  for (; regions != 0u; regions &= regions - 1u) {
+    TexelRect rect = region_rect(cascade, regions & (~regions + 1u));
+    around.first = min(around.first, rect.first);
+    around.last = max(around.last, rect.last);
+  }
+  return around;
+}
+
 ivec2 sub_texels(vec3 grid) {
   vec2 whole = floor(grid.xy);
   vec2 part = (grid.xy - whole) * float(SubTexels);
@@ -66,11 +77,18 @@ void draw_triangle(vec3 a, vec3 b, vec3 c, vec2 uv[3]) {
   ivec2 p0 = sub_texels(a);
   ivec2 p1 = sub_texels(b);
   ivec2 p2 = sub_texels(c);
+  ivec2 lo = min(p0, min(p1, p2));
+  ivec2 hi = max(p0, max(p1, p2));
+  if (first_texel(lo.x) > min(last_texel(hi.x), reach.last.x) || first_texel(lo.y) > min(last_texel(hi.y), reach.last.y) ||
+      last_texel(hi.x) < reach.first.x || last_texel(hi.y) < reach.first.y) return;
   ivec2 ab = p1 - p0;
   ivec2 ac = p2 - p0;
-  int64_t area = int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x);
-  if (area == 0l) return;
-  bool turns = area < 0l;
+  bool is_small = max(hi.x - lo.x, hi.y - lo.y) <= SmallTexels * SubTexels;
+  float area;
+  if (is_small) area = float(ab.x * ac.y - ab.y * ac.x);
+  else area = float(int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x));
+  if (area == 0.0) return;
+  bool turns = area < 0.0;
   GridTriangle t;
   t.x0 = p0.x, t.y0 = p0.y;
   t.x1 = turns ? p2.x : p1.x, t.y1 = turns ? p2.y : p1.y;
@@ -81,7 +99,7 @@ void draw_triangle(vec3 a, vec3 b, vec3 c, vec2 uv[3]) {
   if (t.z_base > FarDepth) return;
   precise vec3 above = z - base;
   t.z_most = max(above.x, max(above.y, above.z));
-  precise float scale = 1.0 / float(turns ? -area : area);
+  precise float scale = 1.0 / abs(area);
   precise vec3 share = above * scale;
   t.z = share;
   t.cascade = item.cascade;
@@ -90,8 +108,6 @@ void draw_triangle(vec3 a, vec3 b, vec3 c, vec2 uv[3]) {
   t.batch = masked ? mask_batch : NoIndex;
   t.u = vec3(uv[0].x, turns ? uv[2].x : uv[1].x, turns ? uv[1].x : uv[2].x) * scale;
   t.v = vec3(uv[0].y, turns ? uv[2].y : uv[1].y, turns ? uv[1].y : uv[2].y) * scale;
-  bool is_small = max(max(abs(ab.x), abs(ac.x)), abs(ac.x - ab.x)) <= SmallTexels * SubTexels &&
-                  max(max(abs(ab.y), abs(ac.y)), abs(ac.y - ab.y)) <= SmallTexels * SubTexels;
   bool is_queued = false;
   for (uint regions = item.regions; regions != 0u && !is_queued; regions &= regions - 1u) {
     TexelRect rect = covered_rect(t, region_rect(cascade, regions & (~regions + 1u)));
@@ -166,5 +182,6 @@ void main() {
   }
   if (item.regions == 0u) return;
   mask_batch = batch.mask != NoIndex ? caster.batch : NoIndex;
+  reach = rect_around(item.regions);
   draw_batch(Instances(push.instances).v[caster.instance], batch);
 }
