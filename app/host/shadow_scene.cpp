@@ -44,9 +44,9 @@ bool same(const umbrage::LightDesc& a, const umbrage::LightDesc& b) {
   return values(a) == values(b);
 }
 
-/// Blended surfaces cast nothing; nor does what its own factor cuts away wholly.
+/// Blended surfaces and skies cast nothing; nor does what its own factor cuts away wholly.
 bool casts(const Material& material) {
-  if (material.alpha_mode == AlphaMode::blend) return false;
+  if (material.alpha_mode == AlphaMode::blend || !material.casts_shadow) return false;
   return material.alpha_mode == AlphaMode::opaque || material.base_color.a >= material.alpha_cutoff;
 }
 

@@ -40,6 +40,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+  bool casts_shadow = true;             ///< A sky around the scene would leave a sun no way in.
   bool unlit = false;                   ///< KHR_materials_unlit.
 };
 

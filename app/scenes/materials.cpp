@@ -110,6 +110,7 @@ void set_shining(Scene& scene, Table& table) {
   shine(Mat::dial, "clock face", vec3(2.2f, 1.7f, 1.0f), -1);
   shine(Mat::sky, "sky", vec3(0.16f), pane + 1);
   scene.materials[static_cast<size_t>(Mat::sky)].emissive_texture.wrap_v = Wrap::clamp;
+  scene.materials[static_cast<size_t>(Mat::sky)].casts_shadow = false;
 }
 
 }  // namespace
