@@ -50,7 +50,7 @@ PlaneRect union_of(const PlaneRect& a, const PlaneRect& b) {
 }
 
 uint32_t sun_place_of_request(double request) {
-  const double level = std::ceil(std::log2(std::max(request, 1.0)) - 0.5);
+  const double level = std::ceil(std::log2(std::max(request, 1.0)));
   return uint32_t(kFinestLevel - std::clamp(int(level), kFinestLevel + 1 - int(sun_places), kFinestLevel));
 }
 

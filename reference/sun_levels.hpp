@@ -33,7 +33,7 @@ PlaneRect rect_on_plane(const SunPlane&, const Box&);
 PlaneRect intersection(const PlaneRect&, const PlaneRect&);
 PlaneRect union_of(const PlaneRect&, const PlaneRect&);
 
-/// The level, of all, whose texels are nearest to what is asked for.
+/// The coarsest level whose texels are no larger than what is asked for.
 uint32_t sun_place_of_request(double request);
 
 /// Of so many levels in use, those that keep a map: all, every second, … , counted from the coarsest.

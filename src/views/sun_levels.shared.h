@@ -164,9 +164,10 @@ UMB_FN bool sun_window_holds(ShadowView plane, ShadowView window, SunRect rect) 
 
 // --- Which levels -------------------------------------------------------------------------------------------------------
 
-/// The level whose texels are nearest to those of a plane of so many: at most 1.42 times as wide.
+/// The coarsest level with texels no larger than those of a plane of so many. (Not the nearest, as for other lights: where the sun
+/// is high every ledge casts a shadow of a pixel or two, and half of them would be lost.)
 UMB_FN uint sun_place_of_request(float resolution) {
-  float level = ceil(log2(max(resolution, 1.0f)) - 0.5f);
+  float level = ceil(log2(max(resolution, 1.0f)));
   return SunFinestLevel - max(floor_to_uint(level, SunFinestLevel), SunCoarsestLevel);
 }
 
