@@ -13,7 +13,6 @@
 #include "commands/session.hpp"
 #include "commands/stats_json.hpp"
 #include "commands/surfaces.hpp"
-#include "layered/layered_geometry.hpp"
 
 namespace app {
 
@@ -123,13 +122,6 @@ void add_movers(Scene& scene, const glm::mat4& camera) {
   }
 }
 
-/// Domes around a scene would shade all of it.
-void drop_skies(Scene& scene) {
-  for (Mesh& mesh : scene.meshes)
-    std::erase_if(mesh.primitives,
-                  [&](const Primitive& primitive) { return !is_solid(scene.materials[primitive.material]); });
-}
-
 ActiveLight sun() {
   return {.name = "sun",
           .kind = LightKind::directional,
@@ -160,7 +152,6 @@ class CascadeStage {
     if (!loaded) return loaded.error();
     CascadeStage stage;
     stage.scene_ = std::make_unique<Scene>(std::move(*loaded));
-    drop_skies(*stage.scene_);
     const Pose first = pose(*stage.scene_, 0);
     auto camera = CameraSource::create({}, first, scene_bounds(*stage.scene_, first),
                                        static_cast<float>(width) / static_cast<float>(height));

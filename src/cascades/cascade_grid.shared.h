@@ -131,6 +131,13 @@ UMB_FN bool box_meets_volume(GridBox box, ivec3 origin, uint side) {
   return box_meets_rect(box, origin, rect) && box.lo.z <= origin.z + FarDepth;
 }
 
+/// Does what lies between two depths come up in the kept part of a map that was scrolled? It stood before the near side of V' and
+/// was clamped there, or beyond its far side.
+UMB_FN bool appears_in_depth(CascadeRecord cascade, int nearest, int farthest) {
+  int deeper = cascade.origin.z - cascade.former.z;
+  return (deeper < 0 && nearest < cascade.former.z) || (deeper > 0 && farthest > cascade.former.z + FarDepth);
+}
+
 /// Where a static caster is drawn into the static map: the set ΔS, or S if the map was cleared. was_static: in the frame before.
 /// Corrected (E17, E18), these are parts of V \ V' in three dimensions: with what the move exposed at the sides, what stood before
 /// the near side of V' or beyond its far side, of which the scrolled depths know nothing.
@@ -142,9 +149,8 @@ UMB_FN uint static_regions(CascadeRecord cascade, uint action, GridBox box, bool
   uint regions = 0u;
   if (box_meets_rect(box, cascade.origin, region_rect(cascade, RegionColumns))) regions |= RegionColumns;
   if (box_meets_rect(box, cascade.origin, region_rect(cascade, RegionRows))) regions |= RegionRows;
-  int deeper = cascade.origin.z - cascade.former.z;
-  bool appears = (deeper < 0 && box.lo.z < cascade.former.z) || (deeper > 0 && box.hi.z > cascade.former.z + FarDepth);
-  if (appears && box_meets_rect(box, cascade.origin, region_rect(cascade, RegionKept))) regions |= RegionKept;
+  if (appears_in_depth(cascade, box.lo.z, box.hi.z) && box_meets_rect(box, cascade.origin, region_rect(cascade, RegionKept)))
+    regions |= RegionKept;
   return regions;
 }
 

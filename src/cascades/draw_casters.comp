@@ -102,14 +102,17 @@ void draw_triangle(vec3 a, vec3 b, vec3 c, vec2 uv[3]) {
   precise float scale = 1.0 / abs(area);
   precise vec3 share = above * scale;
   t.z = share;
+  // Of a caster that comes up in the kept part, few triangles do.
+  int absolute = t.z_base + cascade.origin.z;
   t.cascade = item.cascade;
   t.regions = item.regions;
+  if (!appears_in_depth(cascade, absolute, absolute + round_to_int(ceil(t.z_most)))) t.regions &= ~RegionKept;
   t.target = target;
   t.batch = masked ? mask_batch : NoIndex;
   t.u = vec3(uv[0].x, turns ? uv[2].x : uv[1].x, turns ? uv[1].x : uv[2].x) * scale;
   t.v = vec3(uv[0].y, turns ? uv[2].y : uv[1].y, turns ? uv[1].y : uv[2].y) * scale;
   bool is_queued = false;
-  for (uint regions = item.regions; regions != 0u && !is_queued; regions &= regions - 1u) {
+  for (uint regions = t.regions; regions != 0u && !is_queued; regions &= regions - 1u) {
     TexelRect rect = covered_rect(t, region_rect(cascade, regions & (~regions + 1u)));
     if (rect_is_empty(rect)) continue;
     if (is_small) {
