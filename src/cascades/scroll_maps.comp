@@ -29,7 +29,8 @@ void main() {
   for (uint i = 0u; i < CellTexels; ++i) {
     int x = from.x + int(i);
     uint depth = ClearDepth;
-    if (row_is_known && x >= 0 && x < int(cascade.side)) depth = scrolled_depth(maps.v[words + uint(from.y) * cascade.side + uint(x)], by.z);
+    if (row_is_known && x >= 0 && x < int(cascade.side))
+      depth = scrolled_depth(maps.v[words + uint(from.y) * cascade.side + uint(x)], by.z);
     farthest = max(farthest, depth);
     maps.v[to + i] = depth;
   }
