@@ -1,6 +1,7 @@
 // The host's list of pages that have memory, over frames that ask for this and that.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <set>
