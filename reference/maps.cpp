@@ -11,12 +11,13 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr uint32_t kFinestLevel = 13, kCoarsestLevel = 2;  // 8192 and 4 texels
-constexpr double kTapReachTexels = 1.05;                   // taps lie one texel around the receiver's
+constexpr double kTapReachTexels = 1.55;                   // the nine texels' centres, and rounding
 constexpr double kTapDepthTexels = 8;                      // and compare no deeper than this behind it
 
 std::array<glm::dvec3, 8> corners(const Box& box) {
   std::array<glm::dvec3, 8> out;
-  for (uint32_t i = 0; i < 8; ++i) out[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
+  for (uint32_t i = 0; i < 8; ++i)
+    out[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
   return out;
 }
 
@@ -24,7 +25,8 @@ double cross(glm::dvec2 o, glm::dvec2 a, glm::dvec2 b) { return (a.x - o.x) * (b
 
 /// Area of the convex hull.
 double hull_area(std::vector<glm::dvec2> points) {
-  std::sort(points.begin(), points.end(), [](glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::sort(points.begin(), points.end(),
+            [](glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<glm::dvec2> hull;
   for (int half = 0; half < 2; ++half) {
     const size_t start = hull.size();
@@ -45,8 +47,8 @@ double farthest_depth(const MapLight& light, const Box& box) {
   double depth = light.kind == MapKind::spot ? light.near_m : 0;
   for (const glm::dvec3 corner : corners(box)) {
     const glm::dvec3 r = corner - light.position;
-    depth = std::max(depth,
-                     light.kind == MapKind::spot ? glm::dot(r, light.direction) : std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)}));
+    depth = std::max(depth, light.kind == MapKind::spot ? glm::dot(r, light.direction)
+                                                        : std::max({std::abs(r.x), std::abs(r.y), std::abs(r.z)}));
   }
   return depth;
 }
@@ -65,7 +67,8 @@ uint32_t allocated_resolution(double request) {
 }  // namespace
 
 Sphere sphere_around(const Box& box) {
-  return {0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)), 0.5 * glm::distance(glm::dvec3(box.min), glm::dvec3(box.max))};
+  return {0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)),
+          0.5 * glm::distance(glm::dvec3(box.min), glm::dvec3(box.max))};
 }
 
 Sphere sphere_around(std::span<const glm::vec3> points) {
@@ -95,7 +98,8 @@ double covered_pixels(const MapCamera& camera, const Box& box) {
 
 double nearest_pixel_m(const MapCamera& camera, const Box& box, double least_depth) {
   double depth = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3 corner : corners(box)) depth = std::min(depth, camera.forward * (camera.view_from_world * glm::dvec4(corner, 1)).z);
+  for (const glm::dvec3 corner : corners(box))
+    depth = std::min(depth, camera.forward * (camera.view_from_world * glm::dvec4(corner, 1)).z);
   depth = std::max(depth, least_depth);
   // w is the depth of perspective cameras and 1 of orthographic ones.
   const double w = std::abs(camera.clip_from_view[2][3]) * depth + camera.clip_from_view[3][3];
@@ -116,8 +120,8 @@ double facing_away_rad(const MapLight& light, const Sphere& sphere, glm::dvec3 c
   return std::acos(std::clamp(glm::dot(cone_axis, to_light), -1.0, 1.0)) - std::acos(cone_cosine) - spread - kPi / 2;
 }
 
-double requested_resolution(const MapLight& light, const MapRules& rules, double pixels, const Sphere& sphere, const Box& box,
-                            double pixel_m) {
+double requested_resolution(const MapLight& light, const MapRules& rules, double pixels, const Sphere& sphere,
+                            const Box& box, double pixel_m) {
   double wanted = 0;
   if (light.kind == MapKind::sun) {
     wanted = light.side_m / pixel_m;
@@ -164,6 +168,19 @@ std::vector<uint32_t> map_resolutions(std::span<const double> requests, const Ma
   while (kept.size() > rules.maps_per_light) kept.erase(std::prev(kept.end()));
   for (uint32_t& resolution : own) resolution = std::max(resolution, *kept.rbegin());
   return own;
+}
+
+double largest_facing(const MapLight& light, const ReceiverBlock& block) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const double normal : {block.normals.min[axis], block.normals.max[axis]})
+      for (const double position : {block.positions.min[axis], block.positions.max[axis]})
+        largest = std::max(
+            largest, normal * (light.kind == MapKind::sun ? -light.direction[axis] : light.position[axis] - position));
+    sum += largest;
+  }
+  return sum;
 }
 
 ViewMarks no_marks(uint32_t resolution, uint32_t grid) {
@@ -228,16 +245,20 @@ double reach_m(const MapLight& light, uint32_t resolution, const Box& box) {
 
 }  // namespace
 
-void mark_receivers(const CasterView& view, const MapLight& light, uint32_t resolution, const Box& box, double tolerance,
-                    double tolerance_m, ViewMarks& marks) {
+void mark_receivers(const CasterView& view, const MapLight& light, uint32_t resolution, const Box& box,
+                    double tolerance, double tolerance_m, ViewMarks& marks) {
   const double grow_m = reach_m(light, resolution, box) + tolerance_m;
-  const Footprint seen{range_of(view.x, box, grow_m), range_of(view.y, box, grow_m), range_of(view.depth, box, grow_m), view.perspective};
+  const Footprint seen{range_of(view.x, box, grow_m), range_of(view.y, box, grow_m), range_of(view.depth, box, grow_m),
+                       view.perspective};
   const Range whole{-1 - tolerance, 1 + tolerance};
-  if (seen.depth.low > seen.depth.high || seen.x.low > seen.x.high || seen.y.low > seen.y.high || !meets(seen, whole, whole)) return;
+  if (seen.depth.low > seen.depth.high || seen.x.low > seen.x.high || seen.y.low > seen.y.high ||
+      !meets(seen, whole, whole))
+    return;
   marks.seen = true;
   const double texel = (light.kind == MapKind::sun ? light.side_m : 2 * light.tangent) / resolution;
-  const double farthest = view.perspective ? seen.depth.high * (1 + kTapDepthTexels * texel)
-                                           : seen.depth.high + kTapDepthTexels * texel * glm::length(glm::dvec3(view.depth));
+  const double farthest = view.perspective
+                              ? seen.depth.high * (1 + kTapDepthTexels * texel)
+                              : seen.depth.high + kTapDepthTexels * texel * glm::length(glm::dvec3(view.depth));
   const auto each = [&](uint32_t tiles, const std::function<void(uint32_t, uint32_t)>& mark) {
     for (uint32_t y = 0; y < tiles; ++y) {
       if (!meets(seen, whole, window(y, tiles, tolerance))) continue;

@@ -78,6 +78,13 @@ std::vector<uint32_t> map_resolutions(std::span<const double> requests, const Ma
 
 // --- What receivers look up -------------------------------------------------------------------------------------------
 
+/// The samples of a cluster in a block of pixels: a box around their positions and one around their normals.
+struct ReceiverBlock {
+  Box positions, normals;
+};
+/// The largest product of any of the normals and a vector to the light from any of the positions; suns: the direction to it.
+double largest_facing(const MapLight&, const ReceiverBlock&);
+
 /// Of one view of a map: pages and tiles that some receiver's taps may lie in, and the farthest depth that they compare.
 struct ViewMarks {
   uint32_t pages = 1;                             ///< Along the side.
@@ -91,6 +98,7 @@ ViewMarks no_marks(uint32_t resolution, uint32_t grid);
 
 /// Adds the receivers in a box. Views as in CasterView. The box grows by the taps' reach (E7) and tolerance_m, every page and
 /// tile by `tolerance` in view coordinates; with negative ones only what is certainly met is marked.
-void mark_receivers(const CasterView&, const MapLight&, uint32_t resolution, const Box&, double tolerance, double tolerance_m, ViewMarks&);
+void mark_receivers(const CasterView&, const MapLight&, uint32_t resolution, const Box&, double tolerance,
+                    double tolerance_m, ViewMarks&);
 
 }  // namespace reference

@@ -4,7 +4,8 @@
 
 namespace umbrage {
 
-void Frame::record_scene(gpu::Recorder& recorder, const FramePlan& plan, gpu::Uploader& uploader, gpu::RetireQueue& retired) {
+void Frame::record_scene(gpu::Recorder& recorder, const FramePlan& plan, gpu::Uploader& uploader,
+                         gpu::RetireQueue& retired) {
   // Edits → device; world boxes of what moved; 32-way trees over casters and lights (O4, O5).
   scene.record(recorder, scene_pipelines, uploader, retired, plan.serial);
 }
@@ -21,7 +22,8 @@ void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (scene.light_slots() == 0 || plan.store == Store::fixed_cubes) return;
 
   // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
-  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, backing(plan.store), plan.all_lights});
+  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, plan.normal_encoding,
+                         backing(plan.store), plan.all_lights});
 
   // Marked pages → places in the pool, cleared; or a list for the host, which binds them (O18).
   if (plan.store == Store::page_pool) pool.record(recorder, maps, block, counters);
@@ -43,8 +45,10 @@ void Frame::record_virtual_maps(gpu::Recorder& recorder, const FramePlan& plan) 
   // Maps → the batches whose shadows their receivers can see (O5…O7) → depth.
   const culling::MapCulling::Inputs cull = cull_inputs(plan);
   map_culling.record_count(recorder, cull);
-  if (plan.store == Store::page_pool) record_pages(recorder, plan, cull);
-  else record_layers(recorder, plan, cull);
+  if (plan.store == Store::page_pool)
+    record_pages(recorder, plan, cull);
+  else
+    record_layers(recorder, plan, cull);
 }
 
 void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
@@ -61,18 +65,46 @@ void Frame::record_pages(gpu::Recorder& recorder, const FramePlan& plan, const c
 }
 
 culling::MapCulling::Inputs Frame::cull_inputs(const FramePlan& plan) const {
-  return {scene, block, counters, views.buffer(), maps.maps(), maps.projection(), maps.receiver_depth(), clusters.used_lights(), caster_shape(),
+  return {scene,
+          block,
+          counters,
+          views.buffer(),
+          maps.maps(),
+          maps.projection(),
+          maps.receiver_depth(),
+          clusters.used_lights(),
+          caster_shape(),
           plan.settings.caster_culling};
 }
 
 raster::PageWriterInputs Frame::page_inputs(const FramePlan& plan) const {
-  return {scene, block, views.buffer(), maps.maps(), maps.page_bits(), maps.page_first(), pool.pool(), map_culling.items(), map_culling.draw_counts(),
-          map_culling.capacity(), &counters, plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
+  return {scene,
+          block,
+          views.buffer(),
+          maps.maps(),
+          maps.page_bits(),
+          maps.page_first(),
+          pool.pool(),
+          map_culling.items(),
+          map_culling.draw_counts(),
+          map_culling.capacity(),
+          &counters,
+          plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
 }
 
 void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
-  const raster::LayerWriter::Inputs write{scene, block, counters, views.buffer(), maps.maps(), map_culling.items(), map_culling.draw_counts(),
-                                          map_culling.capacity(), map_images(plan.store), maps.page_bits(), plan.settings.max_resolution, image_table()};
+  const raster::LayerWriter::Inputs write{scene,
+                                          block,
+                                          counters,
+                                          views.buffer(),
+                                          maps.maps(),
+                                          map_culling.items(),
+                                          map_culling.draw_counts(),
+                                          map_culling.capacity(),
+                                          map_images(plan.store),
+                                          maps.page_bits(),
+                                          plan.settings.max_resolution,
+                                          image_table()};
   layer_writer.record_clear(recorder, write);
   for (uint32_t round = 0; round < plan.caster_rounds; ++round) {
     map_culling.record_round(recorder, cull, round);
@@ -83,8 +115,12 @@ void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const 
 maps::Maps::Backing Frame::backing(Store kind) const {
   if (kind == Store::page_pool) return {.capacity_units = pool.capacity_units()};
   const store::ImageLayout& layout = map_images(kind).layout();
-  maps::Maps::Backing backing{.block = {1, 1}, .capacity_units = UINT32_MAX, .images = image_table(), .image_count = static_cast<uint32_t>(layout.images.size()),
-                              .most_views = layout.most_views, .whole_images = true};
+  maps::Maps::Backing backing{.block = {1, 1},
+                              .capacity_units = UINT32_MAX,
+                              .images = image_table(),
+                              .image_count = static_cast<uint32_t>(layout.images.size()),
+                              .most_views = layout.most_views,
+                              .whole_images = true};
   if (kind == Store::physical_pool) return backing;
   backing.block = sparse.form().page;
   backing.capacity_units = sparse.layout().pages * (backing.block.x * backing.block.y / shared::PoolUnit);
@@ -108,7 +144,8 @@ void Frame::publish(gpu::Recorder& recorder, const FramePlan& plan) {
 
 void Frame::record_fixed_cubes(gpu::Recorder& recorder, const FramePlan& plan) {
   // Views → the batches each needs (O6) → depth (O12), by one multi-draw or a pass per view.
-  const culling::CasterCulling::Inputs cull{scene, views.buffer(), counters, clusters.used_lights(), block, caster_shape(), plan.settings.caster_culling};
+  const culling::CasterCulling::Inputs cull{
+      scene, views.buffer(), counters, clusters.used_lights(), block, caster_shape(), plan.settings.caster_culling};
   const raster::Writers::Inputs write{scene, store, culling, cull, max_draws};
   if (plan.settings.writer == Writer::traditional) {
     writers.record_traditional(recorder, write);
@@ -150,15 +187,17 @@ Result<void> Frame::create_sparse(const gpu::Device& device, const gpu::Pipeline
   return {};
 }
 
-Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Memory& memory, const gpu::PipelineFactory& factory,
-                                             const StaticSettings& settings) {
+Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Memory& memory,
+                                             const gpu::PipelineFactory& factory, const StaticSettings& settings) {
   std::unique_ptr<Frame> frame(new Frame(device, memory, settings));
   const auto make = [&](auto& target, auto made) -> Result<void> {
     if (!made) return made.error();
     target = std::move(*made);
     return {};
   };
-  const auto buffer = [&](VkDeviceSize bytes, const char* name) { return gpu::Buffer::create(device, memory, bytes, gpu::MemoryKind::device, name); };
+  const auto buffer = [&](VkDeviceSize bytes, const char* name) {
+    return gpu::Buffer::create(device, memory, bytes, gpu::MemoryKind::device, name);
+  };
   if (auto ok = make(frame->scene_pipelines, scene::ScenePipelines::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->clusters, clusters::Clusters::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->views, maps::Views::create(factory)); !ok) return ok.error();
@@ -171,7 +210,9 @@ Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Mem
     if (auto ok = make(frame->page_raster, raster::PageRaster::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->page_fragments, raster::PageFragments::create(factory)); !ok) return ok.error();
   } else if (settings.store == Store::physical_pool) {
-    if (auto ok = make(frame->layer_writer, raster::LayerWriter::create(factory, raster::LayerWriter::Target::depth16)); !ok) return ok.error();
+    if (auto ok = make(frame->layer_writer, raster::LayerWriter::create(factory, raster::LayerWriter::Target::depth16));
+        !ok)
+      return ok.error();
   } else if (settings.store == Store::hardware_sparse) {
     if (auto ok = frame->create_sparse(device, factory, settings.sparse_texels); !ok) return ok.error();
   } else {

@@ -113,6 +113,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
               .all_lights = camera.other_receivers, .cascades = !s.cascade_lights.empty(), .caster_rounds = s.plan_rounds(), .consumer_stages = desc.consumer_stages, .serial = desc.serial};
     FrameBlock block{};
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
+    block.record.marks_blocks = desc.settings.receiver_boxes == ReceiverBoxes::blocks;
     s.fill_block(block, *record, *s.current);
     std::memset(s.current->statistics.mapped(), 0, sizeof(shared::TapCounts));
     if (s.current->page_requests) std::memset(s.current->page_requests.mapped(), 0, sizeof(shared::SparseRequests));

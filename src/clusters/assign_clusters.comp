@@ -2,13 +2,10 @@
 // O1, O9: which clusters the samples of a tile occupy, the bits of their explicit bounds and of their normals. A workgroup a
 // tile: samples or their bits in shared memory, one atomicOr each (two with normals), and nothing global.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_samplerless_texture_functions : require
 #include "clusters/cluster_buffers.glsl"
-#include "clusters/normal_cone.shared.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform PushBlock { AssignPush push; };
-layout(set = 0, binding = 0) uniform texture2D depth_image;
-layout(set = 0, binding = 1) uniform texture2D normal_image;
+#include "clusters/sample.glsl"
 
 shared uint bits[MaxSlices];
 shared uint normals_low[MaxSlices];
@@ -17,21 +14,10 @@ shared uint occupied[SliceWords];
 
 const uint threads = 64u;
 
-/// False when the host has no normals or this one is not a direction.
-bool read_normal(ivec2 pixel, out vec3 normal) {
-  if (push.normal_encoding == 0u) return false;
-  vec3 texel = texelFetch(normal_image, pixel, 0).xyz;
-  normal = push.normal_encoding == 1u ? from_octahedral(texel.xy) : push.normal_encoding == 2u ? texel * 2.0 - 1.0 : texel;
-  float size = dot(normal, normal);
-  return size > 0.25 && size < 4.0;
-}
-
 void assign(CameraRecord camera, uvec2 tile, ivec2 pixel) {
-  float depth = texelFetch(depth_image, pixel, 0).x;
-  if (is_background(depth)) return;
-  float t = view_depth(camera, depth);
-  uint slice = slice_of(camera, t);
-  vec3 position = world_position(camera, ndc_of_pixel(camera, vec2(pixel) + 0.5), t);
+  uint slice;
+  vec3 position;
+  if (!read_sample(camera, pixel, slice, position)) return;
   atomicOr(bits[slice], sample_bits(position, cell_box(camera, tile, slice)));
   vec3 normal;
   if (!read_normal(pixel, normal)) {

@@ -72,7 +72,7 @@ struct FrameRecord {
   uint receiver_grid;        // cells along a view's side: 1 (PMCD), 2 … 32
   uint map_capacity;
   float depth_step;          // of stored depths: what rounding may make of one more than it is; 0: 32 bits
-  uint pad;
+  uint marks_blocks;         // 1: what the maps know of a cluster's receivers holds for the depth buffer's samples alone
   uint64_t cascades;         // CascadeTable, or 0
 };
 UMB_ASSERT_SIZE(FrameRecord, 408);

@@ -25,6 +25,7 @@ class Clusters {
   const gpu::Buffer& boxes() const { return boxes_; }
   const gpu::Buffer& cones() const { return cones_; }
   const gpu::Buffer& cells() const { return cells_; }
+  const gpu::Buffer& lists() const { return lists_; }
   const gpu::Buffer& lights() const { return lights_; }
   /// The cluster of each entry of lights(); NoIndex where a list found no room.
   const gpu::Buffer& pair_clusters() const { return pair_clusters_; }

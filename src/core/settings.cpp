@@ -33,6 +33,7 @@ constexpr std::array<Choice, 2> kLayout{{{"exact", 0}, {"levels", 1}}};
 constexpr std::array<Choice, 2> kResolution{{{"paper", 0}, {"corrected", 1}}};
 constexpr std::array<Choice, 2> kBuckets{{{"logarithmic", 0}, {"linear", 1}}};
 constexpr std::array<Choice, 6> kCascades{{{"none", 0}, {"redraw", 1}, {"cached", 2}, {"scrolled", 3}, {"scrolled_literal", 4}, {"guard_band", 5}}};
+constexpr std::array<Choice, 2> kReceiverBoxes{{{"clusters", 0}, {"blocks", 1}}};
 constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
 
 #define UMB_FIELD(path)                                                                    \
@@ -60,6 +61,8 @@ const std::array<Field, 31> kFields{{
      UMB_FIELD(frame.resolution), kResolution},
     {{"buckets", "logarithmic|linear", "steps of the histogram behind a light's maps (O8, E8); exact layout"}, UMB_FIELD(frame.buckets), kBuckets},
     {{"facing_away", "kept|dropped", "cluster/light pairs whose normals all face away from the light"}, UMB_FIELD(frame.facing_away), kFacingAway},
+    {{"receiver_boxes", "clusters|blocks", "what marks pages and receivers: boxes of clusters (O3, O7), or of their samples in every 4x4 pixels"},
+     UMB_FIELD(frame.receiver_boxes), kReceiverBoxes},
     {{"maps_per_light", "1..16", "maps of different resolution that a light may have (O8)"}, UMB_FIELD(frame.maps_per_light), {}, 1, 16},
     {{"levels_per_sun", "1..16", "levels of a directional light that may have a map; fewer are each used for more (levels layout, page pool)"},
      UMB_FIELD(frame.levels_per_sun), {}, 1, 16},
@@ -132,7 +135,7 @@ Settings fixed_cubes() {
 Settings paper(CasterCulling culling, ClusterBounds bounds, uint32_t maps_per_light = 4, uint32_t undersampling = 1) {
   Settings settings;
   settings.frame = {.cluster_bounds = bounds, .layout = MapLayout::exact, .resolution = ResolutionForm::paper, .facing_away = FacingAway::kept,
-                    .maps_per_light = maps_per_light, .undersampling = undersampling, .receiver_grid = 1, .caster_culling = culling,
+                    .receiver_boxes = ReceiverBoxes::clusters, .maps_per_light = maps_per_light, .undersampling = undersampling, .receiver_grid = 1, .caster_culling = culling,
                     .min_resolution = 4};
   return settings;
 }

@@ -36,7 +36,7 @@ UMB_FN DebugMap debug_map(Frame frame, Cluster cluster, uint i) {
   if (light.view_count == 0u) return debug_no_map(slot);
   if (store_of(frame) == StoreAtlas)
     return DebugMap(NoIndex, slot, light.first_view, light.view_count, light.resolution, 0u, light.resolution, false, 0u);
-  uint index = cluster.first == NoIndex ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
+  uint index = cluster.is_sample == 0u ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
   if (index == NoIndex) index = whole_map(frame, slot);
   return index == NoIndex ? debug_no_map(slot) : debug_map_at(frame, index, slot);
 }
@@ -52,7 +52,7 @@ UMB_FN uvec2 debug_light_maps(Frame frame, uint slot) {
 /// An occupied cluster by its number.
 UMB_FN Cluster debug_cluster(Frame frame, uint index) {
   ClusterList list = UmbrageLists(UmbrageFrames(frame.address).v[0].cluster_lists).v[index];
-  return Cluster(index, list.first, list.count);
+  return Cluster(index, list.first, list.count, list.first == NoIndex ? 0u : 1u);
 }
 
 /// Where a point falls on a map.

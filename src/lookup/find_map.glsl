@@ -41,6 +41,6 @@ UMB_FN Map map_of_pair(Frame frame, Cluster cluster, uint i, uint slot) {
   UmbrageFrames f = UmbrageFrames(frame.address);
   LightRecord light = UmbrageLights(f.v[0].lights).v[slot];
   if (store_of(frame) == StoreAtlas) return Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0f);
-  uint index = cluster.first == NoIndex ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
+  uint index = cluster.is_sample == 0u ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
   return map_of_record(frame, index == NoIndex ? whole_map(frame, slot) : index, light.near_m);
 }

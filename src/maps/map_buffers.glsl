@@ -1,17 +1,8 @@
-// Arrays of the maps' records by address, and the push constant of their passes.
-#include "clusters/cluster_buffers.glsl"
-#include "maps/map_push.shared.h"
-#include "maps/resolution.shared.h"
+// The push constant of most passes of maps, and what they find by it.
+#include "maps/map_arrays.glsl"
 #include "views/sun_levels.shared.h"
-
-UMB_ARRAY(Maps, MapRecord, 4);
-UMB_ARRAY(LightMapList, LightMaps, 4);
-UMB_ARRAY(Requests, LightRequest, 4);
-UMB_ARRAY(Views, ShadowView, 4);
 layout(push_constant, scalar) uniform PushBlock { MapsPush push; };
 
-/// Large indirect dispatches have two dimensions (set_groups).
-uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 uint global_index(uint threads) { return group_index() * threads + gl_LocalInvocationIndex; }
 
 bool has_flag(uint flag) { return (push.flags & flag) != 0u; }

@@ -37,6 +37,8 @@ UMB_CONST uint MapsWholeImages = 32u;   // the store backs whole images: place_m
 UMB_CONST uint MapsSparse = 64u;        // the store backs blocks of `backing` texels, and maps below a page beforehand
 UMB_CONST uint MapsSunLevels = 128u;    // maps of directional lights are windows of levels (views/sun_levels.shared.h)
 
+UMB_CONST uint MapsMarkBlocks = 128u;   // mark_blocks does what mark_pages would
+
 /// Resolution of the maps that answer for points no depth buffer saw.
 UMB_CONST uint WholeResolution = 128u;
 /// Units that a workgroup of clear_pages clears.
@@ -76,6 +78,15 @@ struct PlaceLevelsPush {   // place_levels
   uint levels_per_sun;
 };
 UMB_ASSERT_SIZE(PlaceLevelsPush, 32);
+
+struct MarkBlocksPush {    // mark_blocks
+  uint64_t frame;
+  uint64_t counters;
+  uint64_t views;
+  uint normal_encoding;
+  uint drop_facing_away;
+};
+UMB_ASSERT_SIZE(MarkBlocksPush, 32);
 
 struct PlaceMapsPush {     // place_maps
   uint64_t frame;

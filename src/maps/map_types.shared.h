@@ -2,6 +2,7 @@
 #ifndef UMBRAGE_MAPS_TYPES_SHARED_H
 #define UMBRAGE_MAPS_TYPES_SHARED_H
 #include "clusters/cluster_types.shared.h"
+#include "core/rounding.shared.h"
 #include "views/shadow_view.shared.h"
 
 UMB_NAMESPACE_BEGIN
@@ -66,6 +67,24 @@ UMB_FN uint page_words_of(uint pages) { return (pages * pages + 31u) / 32u; }
 UMB_FN uint page_units_of(uint resolution) {
   uint side = page_side_of(resolution);
   return side * side / PoolUnit;
+}
+
+/// Of a grid over a view, the cells that texels first … last touch.
+struct CellRect {
+  ivec2 first, last;
+};
+UMB_ASSERT_SIZE(CellRect, 16);
+
+UMB_FN CellRect cells_of_texels(ivec2 first, ivec2 last, uint side, uint resolution) {
+  float scale = float(side) / float(resolution);
+  // Where a texel lies in two cells, rounding must not lose one.
+  float slack = (resolution & (resolution - 1u)) == 0u ? 0.0f : 1e-3f;
+  CellRect cells;
+  cells.first.x = int(floor_to_uint(float(first.x) * scale - slack, side - 1u));
+  cells.first.y = int(floor_to_uint(float(first.y) * scale - slack, side - 1u));
+  cells.last.x = int(floor_to_uint((float(last.x) + 0.999f) * scale + slack, side - 1u));
+  cells.last.y = int(floor_to_uint((float(last.y) + 0.999f) * scale + slack, side - 1u));
+  return cells;
 }
 
 /// Where the page of a texel is found: a word of page bits and the bit in it.

@@ -31,6 +31,9 @@ constexpr uint32_t kClear[] =
 constexpr uint32_t kMark[] =
 #include "shaders/mark_pages.comp.inc"
     ;
+constexpr uint32_t kMarkBlocks[] =
+#include "shaders/mark_blocks.comp.inc"
+    ;
 constexpr uint32_t kCountPages[] =
 #include "shaders/count_pages.comp.inc"
     ;
@@ -50,7 +53,7 @@ Result<Maps> Maps::create(const gpu::PipelineFactory& factory) {
   const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
       {out.request_, kRequest, "request resolutions"}, {out.bucket_, kBucket, "bucket requests"}, {out.place_levels_, kPlaceLevels, "place levels"}, {out.choose_, kChoose, "choose maps"},
       {out.place_, kPlace, "place maps"}, {out.clear_, kClear, "clear marks"}, {out.mark_, kMark, "mark pages"},
-      {out.count_pages_, kCountPages, "count pages"}, {out.count_blocks_, kCountBlocks, "count blocks"},
+      {out.mark_blocks_, kMarkBlocks, "mark blocks"}, {out.count_pages_, kCountPages, "count pages"}, {out.count_blocks_, kCountBlocks, "count blocks"},
       {out.estimate_, kEstimate, "estimate demand"}, {out.fit_, kFit, "fit budget"}};
   for (const auto& entry : all) {
     auto made = factory.compute(entry.spirv, entry.name);
@@ -99,6 +102,7 @@ shared::MapsPush Maps::push(const Inputs& in) const {
   if (settings.resolution == ResolutionForm::paper) flags |= shared::MapsPaperResolution;
   if (settings.buckets == HistogramBuckets::linear) flags |= shared::MapsLinearBuckets;
   if (settings.facing_away == FacingAway::dropped) flags |= shared::MapsDropFacingAway;
+  if (settings.receiver_boxes == ReceiverBoxes::blocks) flags |= shared::MapsMarkBlocks;
   if (in.all_lights) flags |= shared::MapsAllLights;
   if (in.backing.whole_images) flags |= shared::MapsWholeImages;
   if (in.backing.images && !in.backing.whole_images) flags |= shared::MapsSparse;
@@ -190,6 +194,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
     pass.read(pair_requests_), pass.read(requests_), pass.read(light_maps_);
     pass.write(maps_), pass.write(pair_maps_), pass.write(page_bits_), pass.write(projection_), pass.write(receiver_depth_);
     pass.dispatch_indirect(mark_, push, in.counters, offsetof(shared::FrameCounters, fit_pair_groups));
+    if (in.settings.receiver_boxes == ReceiverBoxes::blocks) mark_blocks(recorder, in);
   }
   gpu::Scope scope(recorder, "fit budget");
   if (!in.backing.whole_images) count(recorder, in, push);
@@ -203,6 +208,17 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
   pass.read(in.frame), pass.read(maps_), pass.read(demand_), pass.read(in.scene.light_order_buffer());
   pass.write(in.counters), pass.write(light_maps_), pass.write(in.clusters.used_lights());
   pass.dispatch(fit_, push, 1);
+}
+
+void Maps::mark_blocks(gpu::Recorder& recorder, const Inputs& in) {
+  gpu::Pass pass = recorder.pass("mark blocks");
+  const shared::MarkBlocksPush push{.frame = pass.read(in.frame), .counters = pass.read(in.counters), .views = pass.read(in.views),
+                                    .normal_encoding = static_cast<uint32_t>(in.normal_encoding),
+                                    .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
+  pass.read(in.counters, gpu::Access::indirect_read), pass.read(in.scene.light_buffer());
+  pass.read(in.clusters.cells()), pass.read(in.clusters.lists()), pass.read(pair_maps_);
+  pass.write(maps_), pass.write(page_bits_), pass.write(projection_), pass.write(receiver_depth_);
+  pass.dispatch_indirect(mark_blocks_, push, in.counters, offsetof(shared::FrameCounters, fit_cluster_groups));
 }
 
 void Maps::place(gpu::Recorder& recorder, const Inputs& in) {

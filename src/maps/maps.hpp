@@ -38,6 +38,7 @@ class Maps {
     const gpu::Buffer& counters;
     const gpu::Buffer& views;
     const FrameSettings& settings;
+    NormalEncoding normal_encoding;      ///< Of the image in descriptor set 0.
     Backing backing;
     bool all_lights;
   };
@@ -67,11 +68,12 @@ class Maps {
   void request(gpu::Recorder&, const Inputs&);
   void place_levels(gpu::Recorder&, const Inputs&);
   void fit(gpu::Recorder&, const Inputs&, uint32_t round);
+  void mark_blocks(gpu::Recorder&, const Inputs&);
   void place(gpu::Recorder&, const Inputs&);
   void count(gpu::Recorder&, const Inputs&, const shared::MapsPush&);
 
   Sizes sizes_;
-  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, count_pages_, count_blocks_, estimate_, fit_;
+  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, mark_blocks_, count_pages_, count_blocks_, estimate_, fit_;
   gpu::Buffer maps_, light_maps_, requests_, level_bounds_, demand_, pair_requests_, pair_maps_, page_bits_, page_first_, projection_, receiver_depth_;
 };
 

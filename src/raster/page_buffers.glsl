@@ -15,14 +15,13 @@ const uint NoTexel = 0xffffffffu;
 bool receivers_see(Frame frame, MapRecord map, uint view, ivec2 first, ivec2 last, float near_m, float nearest) {
   if (map.whole != 0u) return true;
   uint side = frame.v.receiver_grid;
-  ivec2 begin = first * int(side) / int(map.resolution);
-  ivec2 end = last * int(side) / int(map.resolution);
-  if ((end.x - begin.x + 1) * (end.y - begin.y + 1) > 64) return true;
+  CellRect cells = cells_of_texels(first, last, side, map.resolution);
+  if ((cells.last.x - cells.first.x + 1) * (cells.last.y - cells.first.y + 1) > 64) return true;
   // A hair nearer: the key was rounded.
   float depth = (map.kind == ViewsOrtho ? 1.0 - nearest : near_m / nearest) * (1.0 - 1e-5) - (map.kind == ViewsOrtho ? 1e-5 : 0.0);
-  uint row = ((map.first_receiver + view) * side + uint(begin.y)) * side;
-  for (int y = begin.y; y <= end.y; ++y) {
-    for (int x = begin.x; x <= end.x; ++x) {
+  uint row = ((map.first_receiver + view) * side + uint(cells.first.y)) * side;
+  for (int y = cells.first.y; y <= cells.last.y; ++y) {
+    for (int x = cells.first.x; x <= cells.last.x; ++x) {
       float farthest = uintBitsToFloat(Uints(frame.v.receiver_depth).v[row + uint(x)]);
       if (farthest > 0.0 && farthest >= depth) return true;
     }

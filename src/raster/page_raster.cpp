@@ -47,8 +47,8 @@ Result<PageRaster> PageRaster::create(const gpu::PipelineFactory& factory) {
   return out;
 }
 
-Result<void> PageRaster::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t large_triangles, VkDeviceSize pool_bytes,
-                                 std::vector<gpu::Buffer>& retired) {
+Result<void> PageRaster::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t large_triangles,
+                                 VkDeviceSize pool_bytes, std::vector<gpu::Buffer>& retired) {
   const uint32_t nodes = std::max(large_triangles, 1u) * kNodesPerTriangle;
   const VkDeviceSize tiles = pool_bytes / kTileBytes + kTilesPerPage;
   struct Need {
@@ -109,7 +109,8 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
     pass.dispatch(plan_, push, 1);
   };
   const auto read_places = [&](gpu::Pass& pass) {
-    for (const gpu::Buffer* buffer : {&in.frame, &in.maps, &in.page_bits, &in.page_first, &in.scene.batch_buffer()}) pass.read(*buffer);
+    for (const gpu::Buffer* buffer : {&in.frame, &in.maps, &in.page_bits, &in.page_first, &in.scene.batch_buffer()})
+      pass.read(*buffer);
     pass.write(in.pool);
     pass.read(arguments_, gpu::Access::indirect_read);
     if (in.receiver_depth) pass.read(*in.receiver_depth);
@@ -126,11 +127,13 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
     gpu::Pass pass = recorder.pass("rasterize triangles");
     read_places(pass);
     for (const gpu::Buffer* buffer : {&in.views, &in.items, &in.counts}) pass.read(*buffer);
-    for (const gpu::Buffer* buffer : {&in.scene.caster_buffer(), &in.scene.instance_buffer(), &in.scene.index_buffer()}) pass.read(*buffer);
+    for (const gpu::Buffer* buffer : {&in.scene.caster_buffer(), &in.scene.instance_buffer(), &in.scene.index_buffer()})
+      pass.read(*buffer);
     pass.write(appended_);
     pass.write(triangles_);
     for (uint32_t kind = 0; kind < (masked ? 2u : 1u); ++kind)
-      pass.dispatch_indirect(rasterize_[kind], push, arguments_, offsetof(shared::RasterArguments, items) + kind * 3 * sizeof(uint32_t));
+      pass.dispatch_indirect(rasterize_[kind], push, arguments_,
+                             offsetof(shared::RasterArguments, items) + kind * 3 * sizeof(uint32_t));
   }
   plan(shared::PlanTriangles);
   {

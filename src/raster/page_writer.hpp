@@ -15,8 +15,9 @@ struct PageWriterInputs {
   const gpu::Buffer& items;   ///< CasterItem: opaque ones from 0, masked ones from item_capacity on.
   const gpu::Buffer& counts;  ///< DrawCounts; items beyond item_capacity are left out.
   uint32_t item_capacity;
-  const gpu::Buffer* counters;        ///< FrameCounters, told of large_triangles; may be null.
-  const gpu::Buffer* receiver_depth;  ///< With it triangles that no receiver can see are dropped one by one; may be null.
+  const gpu::Buffer* counters;  ///< FrameCounters, told of large_triangles; may be null.
+  const gpu::Buffer*
+      receiver_depth;  ///< With it triangles that no receiver can see are dropped one by one; may be null.
 };
 
 }  // namespace umbrage::raster

@@ -99,8 +99,9 @@ UMB_FN ShadowView ortho_view(vec3 direction, vec3 box_min, vec3 box_max, uint re
 
 // --- What lookups reach -----------------------------------------------------------------------------------------------
 
-/// Taps lie one texel around the receiver's; a little more for rounding.
-UMB_CONST float FilterTexels = 1.05f;
+/// Taps read texels whose centres lie within one and a half of the receiver; a little more for rounding. Cells and tiles may be
+/// smaller than a texel, so its centre counts.
+UMB_CONST float FilterTexels = 1.55f;
 /// The receiver's plane is moved so many texels towards the light's side before it is compared.
 UMB_CONST float NormalOffsetTexels = 0.5f;
 /// A tap never compares deeper than the receiver plus so many texels, however steep the receiver's plane: what lies farther

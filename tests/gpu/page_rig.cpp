@@ -12,15 +12,20 @@ PageMap cube_map(const glm::vec3& origin, float near_m, uint32_t resolution, dou
   return map;
 }
 
-PageMap spot_map(const glm::vec3& origin, const glm::vec3& direction, float cone_rad, float near_m, uint32_t resolution, double marked) {
+PageMap spot_map(const glm::vec3& origin, const glm::vec3& direction, float cone_rad, float near_m, uint32_t resolution,
+                 double marked) {
   return {shared::ViewsSpot,
           resolution,
           {shared::perspective_view(origin, near_m, shared::view_rotation(direction), std::tan(cone_rad))},
           marked};
 }
 
-PageMap ortho_map(const glm::vec3& direction, const glm::vec3& box_min, const glm::vec3& box_max, uint32_t resolution, double marked) {
-  return {shared::ViewsOrtho, resolution, {shared::ortho_view(direction, box_min, box_max, std::max(resolution, 16u), 3)}, marked};
+PageMap ortho_map(const glm::vec3& direction, const glm::vec3& box_min, const glm::vec3& box_max, uint32_t resolution,
+                  double marked) {
+  return {shared::ViewsOrtho,
+          resolution,
+          {shared::ortho_view(direction, box_min, box_max, std::max(resolution, 16u), 3)},
+          marked};
 }
 
 PageRig::PageRig(Gpu& gpu, const TestScene& test_scene, std::vector<PageMap> maps, uint32_t seed)
@@ -78,8 +83,8 @@ void PageRig::lay_out(std::mt19937& engine) {
           if (chance(engine) >= map.marked) continue;
           const uint32_t page = word * 32 + bit;
           pages_.push_back({static_cast<uint32_t>(records_.size()), view,
-                            glm::uvec2(page % record.pages, page / record.pages) * shared::PageSide, shared::page_side_of(map.resolution),
-                            units * shared::PoolUnit});
+                            glm::uvec2(page % record.pages, page / record.pages) * shared::PageSide,
+                            shared::page_side_of(map.resolution), units * shared::PoolUnit});
           units += shared::page_units_of(map.resolution);
           marks |= 1u << bit;
         }
@@ -106,8 +111,8 @@ void PageRig::lay_out(std::mt19937& engine) {
 
 void PageRig::list_items(uint32_t seed, bool by_face) {
   const auto casters = gpu_.download<shared::CasterRecord>(scene_.caster_buffer(), scene_.caster_slots());
-  const auto batches =
-      gpu_.download<shared::BatchRecord>(scene_.batch_buffer(), scene_.batch_buffer().size() / sizeof(shared::BatchRecord));
+  const auto batches = gpu_.download<shared::BatchRecord>(scene_.batch_buffer(),
+                                                          scene_.batch_buffer().size() / sizeof(shared::BatchRecord));
   std::mt19937 engine(seed);
   for (auto& list : items_) list.clear();
   for (uint32_t caster = 0; caster < casters.size(); ++caster) {
@@ -116,7 +121,8 @@ void PageRig::list_items(uint32_t seed, bool by_face) {
     for (uint32_t map = 0; map < records_.size(); ++map) {
       const uint32_t all = (1u << records_[map].view_count) - 1;
       if (!by_face) list.push_back({caster, map, all});
-      for (uint32_t face = 0; by_face && face < records_[map].view_count; ++face) list.push_back({caster, map, 1u << face});
+      for (uint32_t face = 0; by_face && face < records_[map].view_count; ++face)
+        list.push_back({caster, map, 1u << face});
     }
   }
   for (auto& list : items_) std::shuffle(list.begin(), list.end(), engine);
@@ -130,11 +136,13 @@ void PageRig::list_items(uint32_t seed, bool by_face) {
 }
 
 raster::PageWriterInputs PageRig::inputs() const {
-  return {scene_, frame_, views_, map_buffer_, page_bits_, page_first_, pool_, item_buffer_, counts_, capacity_, nullptr, nullptr};
+  return {scene_, frame_,       views_,  map_buffer_, page_bits_, page_first_,
+          pool_,  item_buffer_, counts_, capacity_,   nullptr,    nullptr};
 }
 
 uint32_t PageRig::max_resolution() const {
-  return std::max_element(maps_.begin(), maps_.end(), [](const PageMap& a, const PageMap& b) { return a.resolution < b.resolution; })
+  return std::max_element(maps_.begin(), maps_.end(),
+                          [](const PageMap& a, const PageMap& b) { return a.resolution < b.resolution; })
       ->resolution;
 }
 

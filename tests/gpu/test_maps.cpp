@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include "map_rig.hpp"
@@ -50,7 +51,8 @@ reference::ClusterGrid plain_grid(const CameraDesc& desc, const shared::CameraRe
 }
 
 reference::MapLight plain_light(const shared::LightRecord& light, const shared::ShadowView& view) {
-  static_assert(uint32_t(reference::MapKind::cube) == shared::ViewsCube && uint32_t(reference::MapKind::spot) == shared::ViewsSpot &&
+  static_assert(uint32_t(reference::MapKind::cube) == shared::ViewsCube &&
+                uint32_t(reference::MapKind::spot) == shared::ViewsSpot &&
                 uint32_t(reference::MapKind::sun) == shared::ViewsOrtho);
   reference::MapLight out{.kind = static_cast<reference::MapKind>(light.views),
                           .position = light.position_ws,
@@ -80,6 +82,7 @@ struct Check {
   const SeenScene& scene;
   const FrameSettings& settings;
   const DeviceMaps& maps;
+  const Pairs& pairs;
   const SunCheck& suns;
   reference::MapRules rules = plain_rules(settings);
 
@@ -95,7 +98,8 @@ struct Request {
 };
 
 Request expected_request(const Check& check, uint32_t pair) {
-  const uint32_t cluster = check.maps.pair_clusters[pair], cell = check.maps.cells[cluster], tile = cell / shared::MaxSlices;
+  const uint32_t cluster = check.maps.pair_clusters[pair], cell = check.maps.cells[cluster],
+                 tile = cell / shared::MaxSlices;
   const shared::CameraRecord& record = check.maps.record.camera;
   const reference::MapLight light = check.plain_light_of(check.light_of_pair(pair));
   const reference::MapCamera camera = plain_camera(check.scene.camera);
@@ -104,10 +108,11 @@ Request expected_request(const Check& check, uint32_t pair) {
   const glm::vec4 cone = check.maps.cones[cluster];
   const double away = reference::facing_away_rad(light, reference::sphere_around(box), glm::dvec3(cone), cone.w) - 1e-3;
   const bool tight = check.settings.cluster_bounds == ClusterBounds::explicit_bits;
-  const auto corners = reference::cell_corners(grid, {tile % record.tiles.x, tile / record.tiles.x, cell % shared::MaxSlices});
+  const auto corners =
+      reference::cell_corners(grid, {tile % record.tiles.x, tile / record.tiles.x, cell % shared::MaxSlices});
   const reference::Sphere sphere = tight ? reference::sphere_around(box) : reference::sphere_around(corners);
-  const double pixel_m =
-      reference::nearest_pixel_m(camera, box, double(grid.near) * std::pow(double(grid.ratio), cell % shared::MaxSlices));
+  const double pixel_m = reference::nearest_pixel_m(
+      camera, box, double(grid.near) * std::pow(double(grid.ratio), cell % shared::MaxSlices));
   const double distance = glm::distance(sphere.center, light.position);
   Request request;
   request.resolution = reference::requested_resolution(
@@ -115,7 +120,8 @@ Request expected_request(const Check& check, uint32_t pair) {
   if (check.has_levels(check.light_of_pair(pair)))
     request.resolution = check.suns.plane(check.light_of_pair(pair)).request(pixel_m) / check.rules.undersampling;
   request.dropped = check.settings.facing_away == FacingAway::dropped && away > 0;
-  request.close_call = std::abs(away) < 1e-3 || (light.kind != reference::MapKind::sun && std::abs(distance / sphere.radius - 1) < 1e-3);
+  request.close_call =
+      std::abs(away) < 1e-3 || (light.kind != reference::MapKind::sun && std::abs(distance / sphere.radius - 1) < 1e-3);
   return request;
 }
 
@@ -213,9 +219,10 @@ void expect_maps(const Check& check) {
 
 /// What the device marked in one view of a map, nothing of which the reference finds beyond reach, and all that is certainly
 /// within; returns its pages.
-size_t expect_view_marks(const DeviceMaps& maps, const shared::MapRecord& map, uint32_t face, const reference::ViewMarks& least,
-                         const reference::ViewMarks& most) {
-  SCOPED_TRACE("light " + std::to_string(map.light) + ", " + std::to_string(map.resolution) + " texels, view " + std::to_string(face));
+size_t expect_view_marks(const DeviceMaps& maps, const shared::MapRecord& map, uint32_t face,
+                         const reference::ViewMarks& least, const reference::ViewMarks& most) {
+  SCOPED_TRACE("light " + std::to_string(map.light) + ", " + std::to_string(map.resolution) + " texels, view " +
+               std::to_string(face));
   const uint32_t grid = maps.record.receiver_grid, receiver = map.first_receiver + face;
   const bool seen = (map.faces >> face & 1) != 0;
   EXPECT_TRUE(seen ? most.seen : !least.seen);
@@ -239,27 +246,84 @@ size_t expect_view_marks(const DeviceMaps& maps, const shared::MapRecord& map, u
   return marked;
 }
 
+shared::Box shared_box(const reference::Box& box, float grow) { return {box.min - grow, box.max + grow}; }
+
+/// Of every cluster its samples in blocks of 4×4 pixels.
+std::vector<std::vector<reference::ReceiverBlock>> blocks_of_clusters(const Check& check) {
+  constexpr uint32_t kSide = 4;
+  const Receivers& seen = check.scene.seen;
+  std::map<std::pair<uint32_t, uint32_t>, reference::ReceiverBlock> blocks;  // by cluster and block
+  for (uint32_t i = 0; i < seen.width * seen.height; ++i) {
+    const uint32_t cluster = check.pairs.clusters[i], x = i % seen.width, y = i / seen.width;
+    if (cluster == shared::NoIndex) continue;
+    reference::ReceiverBlock& block = blocks[{cluster, y / kSide << 16 | x / kSide}];
+    block.positions.grow(seen.positions[i]);
+    const glm::vec3 normal(seen.normals[i]);
+    const bool is_one = check.scene.camera.normal_encoding != NormalEncoding::none && glm::dot(normal, normal) > 0.25f;
+    block.normals.grow(is_one ? normal - 0.01f : glm::vec3(-1.01f));
+    block.normals.grow(is_one ? normal + 0.01f : glm::vec3(1.01f));
+  }
+  std::vector<std::vector<reference::ReceiverBlock>> all(check.maps.boxes.size());
+  for (const auto& [place, block] : blocks) all[place.first].push_back(block);
+  return all;
+}
+
+/// What receivers of some clusters certainly mark in a view, and what they may mark.
+struct ExpectedMarks {
+  reference::ViewMarks least, most;
+};
+
+struct MarkedView {
+  const shared::MapRecord& map;
+  const shared::LightRecord& record;
+  const reference::MapLight light;
+  const shared::ShadowView& view;
+  const reference::CasterView plain;
+  /// Of coordinates as large as a box's, in parts.
+  float rounding_m(const reference::Box& box, float part) const {
+    const glm::vec3 largest = glm::max(glm::max(glm::abs(box.min), glm::abs(box.max)), glm::abs(view.origin));
+    return part * std::max({largest.x, largest.y, largest.z});
+  }
+  void mark(const reference::Box& box, double least_m, double most_m, ExpectedMarks& marks) const {
+    if (least_m < 0) reference::mark_receivers(plain, light, map.resolution, box, -1e-5, least_m, marks.least);
+    reference::mark_receivers(plain, light, map.resolution, box, 1e-5, most_m, marks.most);
+  }
+  void mark(const reference::ReceiverBlock& block, bool drops_facing_away, ExpectedMarks& marks) const {
+    const float rounding = rounding_m(block.positions, 2e-5f);
+    const double facing = drops_facing_away ? reference::largest_facing(light, block) : 1,
+                 margin = drops_facing_away ? 4 * rounding + 1e-4 : 0;
+    if (facing < -margin || !shared::light_meets_box(record, shared_box(block.positions, rounding))) return;
+    const bool certain = facing > margin && shared::light_meets_box(record, shared_box(block.positions, -rounding));
+    mark(block.positions, certain ? -double(rounding) : 0, double(rounding), marks);
+  }
+};
+
 void expect_marks(const Check& check) {
   const DeviceMaps& maps = check.maps;
+  const bool in_blocks = check.settings.receiver_boxes == ReceiverBoxes::blocks;
+  const auto blocks = in_blocks ? blocks_of_clusters(check) : std::vector<std::vector<reference::ReceiverBlock>>();
   std::vector<std::vector<uint32_t>> clusters_of_map(maps.maps.size());
   for (uint32_t pair = 0; pair < maps.pair_maps.size(); ++pair)
-    if (maps.pair_maps[pair] != shared::NoIndex) clusters_of_map[maps.pair_maps[pair]].push_back(maps.pair_clusters[pair]);
+    if (maps.pair_maps[pair] != shared::NoIndex)
+      clusters_of_map[maps.pair_maps[pair]].push_back(maps.pair_clusters[pair]);
   size_t marked = 0;
   for (uint32_t m = 0; m < maps.maps.size(); ++m) {
     const shared::MapRecord& map = maps.maps[m];
     const reference::MapLight light = plain_light(maps.light_records[map.light], maps.views[map.first_view]);
     for (uint32_t face = 0; face < map.view_count; ++face) {
       const shared::ShadowView& view = maps.views[map.first_view + face];
-      const reference::CasterView plain = plain_view(view, map.kind, face);
-      reference::ViewMarks least = reference::no_marks(map.resolution, maps.record.receiver_grid), most = least;
+      const MarkedView marked_view{map, maps.light_records[map.light], light, view, plain_view(view, map.kind, face)};
+      ExpectedMarks marks{reference::no_marks(map.resolution, maps.record.receiver_grid), {}};
+      marks.most = marks.least;
       for (const uint32_t cluster : clusters_of_map[m]) {
         const reference::Box box = reference_box(maps.boxes[cluster]);
-        const glm::vec3 largest = glm::max(glm::max(glm::abs(box.min), glm::abs(box.max)), glm::abs(view.origin));
-        const double rounding_m = 2e-6 * std::max({largest.x, largest.y, largest.z});
-        reference::mark_receivers(plain, light, map.resolution, box, -1e-5, -rounding_m, least);
-        reference::mark_receivers(plain, light, map.resolution, box, 1e-5, rounding_m, most);
+        const double rounding_m = marked_view.rounding_m(box, 2e-6f);
+        if (!in_blocks) marked_view.mark(box, -rounding_m, rounding_m, marks);
+        for (const reference::ReceiverBlock& block :
+             in_blocks ? blocks[cluster] : std::vector<reference::ReceiverBlock>())
+          marked_view.mark(block, check.settings.facing_away == FacingAway::dropped, marks);
       }
-      marked += expect_view_marks(maps, map, face, least, most);
+      marked += expect_view_marks(maps, map, face, marks.least, marks.most);
     }
     if (testing::Test::HasFailure()) return;
   }
@@ -285,10 +349,10 @@ void expect_pages_apart(const Check& check, SystemRig& rig) {
 
 void check_frame(PairRig& rig, const SeenScene& scene, const FrameSettings& settings) {
   SCOPED_TRACE(scene.name);
-  rig.settle(settings);
+  const Pairs pairs = rig.settle(settings);
   const DeviceMaps maps(rig);
   const SunCheck suns(maps, CasterTables(rig).all);
-  const Check check{scene, settings, maps, suns};
+  const Check check{scene, settings, maps, pairs, suns};
   expect_requests(check);
   expect_maps(check);
   expect_marks(check);
@@ -301,20 +365,35 @@ TEST_F(Maps, AreTheReferencesWithEverySetting) {
   using Layout = MapLayout;
   const FrameSettings all[] = {
       {.max_resolution = 2048},
-      {.facing_away = FacingAway::kept, .maps_per_light = 2, .receiver_grid = 8, .merge_below = 4, .max_resolution = 1024},
+      {.facing_away = FacingAway::kept, .receiver_boxes = ReceiverBoxes::clusters, .max_resolution = 2048},
+      {.facing_away = FacingAway::kept,
+       .maps_per_light = 2,
+       .receiver_grid = 8,
+       .merge_below = 4,
+       .max_resolution = 1024},
       {.cluster_bounds = ClusterBounds::implicit_cell,
+       .receiver_boxes = ReceiverBoxes::clusters,
        .maps_per_light = 1,
        .receiver_grid = 1,
        .min_resolution = 64,
        .max_resolution = 512},
-      {.resolution = ResolutionForm::paper, .maps_per_light = 16, .undersampling = 4, .merge_below = 4, .min_resolution = 4},
+      {.resolution = ResolutionForm::paper,
+       .maps_per_light = 16,
+       .undersampling = 4,
+       .merge_below = 4,
+       .min_resolution = 4},
       {.layout = Layout::exact, .resolution = ResolutionForm::paper, .maps_per_light = 1, .max_resolution = 1024},
       {.cluster_bounds = ClusterBounds::implicit_cell,
        .layout = Layout::exact,
        .resolution = ResolutionForm::paper,
        .maps_per_light = 16,
        .receiver_grid = 1},
-      {.layout = Layout::exact, .maps_per_light = 4, .undersampling = 2, .receiver_grid = 16, .min_resolution = 4, .max_resolution = 2048},
+      {.layout = Layout::exact,
+       .maps_per_light = 4,
+       .undersampling = 2,
+       .receiver_grid = 16,
+       .min_resolution = 4,
+       .max_resolution = 2048},
       {.layout = Layout::exact, .buckets = HistogramBuckets::linear, .maps_per_light = 8, .max_resolution = 1024}};
   for (size_t i = 0; i < std::size(all); ++i) {
     SCOPED_TRACE("settings " + std::to_string(i));
@@ -329,9 +408,13 @@ TEST_F(Maps, AreTheReferencesInHardScenes) {
   for (const SeenScene& scene : scenes) {
     if (&scene != &scenes[0]) rig.replace(scene);
     check_frame(rig, scene, {.max_resolution = 2048});
-    check_frame(
-        rig, scene,
-        {.layout = MapLayout::exact, .resolution = ResolutionForm::paper, .maps_per_light = 4, .receiver_grid = 8, .max_resolution = 1024});
+    check_frame(rig, scene,
+                {.layout = MapLayout::exact,
+                 .resolution = ResolutionForm::paper,
+                 .receiver_boxes = ReceiverBoxes::clusters,
+                 .maps_per_light = 4,
+                 .receiver_grid = 8,
+                 .max_resolution = 1024});
     if (HasFailure()) return;
   }
 }
