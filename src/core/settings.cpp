@@ -40,7 +40,7 @@ constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
   [](const Settings& s) { return static_cast<uint32_t>(s.path); },                         \
       [](Settings& s, uint32_t v) { s.path = static_cast<decltype(s.path)>(v); }
 
-const std::array<Field, 31> kFields{{
+const auto kFields = std::to_array<Field>({
     {{"cluster_bounds", "implicit_cell|explicit_bits", "bounds of a cluster: its cell, or tight ones from three 10-bit number lines (O9)"},
      UMB_FIELD(frame.cluster_bounds), kBounds},
     {{"light_assignment", "hierarchy|brute_force", "lights per cluster through the 32-way light tree, or every pair tested"},
@@ -98,7 +98,7 @@ const std::array<Field, 31> kFields{{
      UMB_FIELD(fixed.max_cluster_light_pairs), {}, 1024, 1u << 26},
     {{"max_caster_pairs", "1024..1048576", "(batch, view) pairs drawn per round, 152 bytes each; memory against rounds"},
      UMB_FIELD(fixed.max_caster_pairs), {}, 1024, 1u << 20},
-}};
+});
 #undef UMB_FIELD
 
 const Field* find(std::string_view key) {

@@ -36,8 +36,7 @@ UMB_CONST uint MapsAllLights = 16u;     // every light gets a map of whole views
 UMB_CONST uint MapsWholeImages = 32u;   // the store backs whole images: place_maps has counted them
 UMB_CONST uint MapsSparse = 64u;        // the store backs blocks of `backing` texels, and maps below a page beforehand
 UMB_CONST uint MapsSunLevels = 128u;    // maps of directional lights are windows of levels (views/sun_levels.shared.h)
-
-UMB_CONST uint MapsMarkBlocks = 128u;   // mark_blocks does what mark_pages would
+UMB_CONST uint MapsMarkBlocks = 256u;   // mark_blocks does what mark_pages would
 
 /// Resolution of the maps that answer for points no depth buffer saw.
 UMB_CONST uint WholeResolution = 128u;
