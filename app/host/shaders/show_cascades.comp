@@ -17,7 +17,7 @@ const vec3 paper = vec3(0.25);
 
 /// The first light with cascades, or the one asked for; NoLight: there is none.
 uint shown_light(UmbrageFrame shadows) {
-  UmbrageCluster all = UmbrageCluster(UmbrageNoIndex, UmbrageNoIndex, umbrage_light_count(shadows));
+  UmbrageCluster all = UmbrageCluster(UmbrageNoIndex, UmbrageNoIndex, umbrage_light_count(shadows), 0u);
   for (uint i = 0u; i < all.count; ++i) {
     UmbrageLight light = umbrage_light(shadows, all, i);
     if ((push.light == NoLight || light.host_index == push.light) && umbrage_debug_cascade_count(shadows, light.index) > 0u) return light.index;
