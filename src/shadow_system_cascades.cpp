@@ -71,7 +71,7 @@ Result<void> ShadowSystem::State::begin_cascades(FrameSlot& slot, const shared::
     slot.cascade_states = std::move(*made);
   }
   slot.known.shadow_memory_bytes += frame->cascades.map_bytes();
-  slot.known.table_memory_bytes = memory->bytes_in_use(gpu::MemoryKind::device) - slot.known.shadow_memory_bytes;
+  slot.known.table_memory_bytes = bytes_beside(slot.known.shadow_memory_bytes);
   const shared::CascadeTable& table = frame->cascades.planned();
   for (const shared::CascadeRecord& record : std::span(table.records, table.cascades))
     slot.cascades.push_back({.light = frame->scene.lights().at(record.light).desc.host_index,

@@ -233,8 +233,13 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraR
     known.texels_allocated = frame->store.texels();
     known.shadow_maps = layout.maps;
   }
-  known.table_memory_bytes = memory->bytes_in_use(gpu::MemoryKind::device) - std::min(memory->bytes_in_use(gpu::MemoryKind::device), known.shadow_memory_bytes);
+  known.table_memory_bytes = bytes_beside(known.shadow_memory_bytes);
   return {};
+}
+
+uint64_t ShadowSystem::State::bytes_beside(uint64_t shadow_bytes) const {
+  const uint64_t in_use = memory->bytes_in_use(gpu::MemoryKind::device);
+  return in_use - std::min(in_use, shadow_bytes);
 }
 
 Result<void> ShadowSystem::State::reserve_fixed_cubes(const FrameDesc& desc) {

@@ -60,6 +60,8 @@ struct ShadowSystem::State {
   uint32_t shader_store() const;
   bool has_virtual_maps() const { return settings.store != Store::fixed_cubes; }
   uint64_t texel_bytes() const;
+  /// Of the device memory in use, what does not hold shadow texels.
+  uint64_t bytes_beside(uint64_t shadow_bytes) const;
   /// Descriptors of images that shaders write.
   uint32_t storage_images() const { return settings.store == Store::hardware_sparse ? shared::MaxMapImages : 0; }
   uint64_t budget_bytes() const { return uint64_t(settings.budget_mib) << 20; }

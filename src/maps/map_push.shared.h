@@ -81,11 +81,10 @@ UMB_ASSERT_SIZE(PlaceLevelsPush, 32);
 struct MarkBlocksPush {    // mark_blocks
   uint64_t frame;
   uint64_t counters;
-  uint64_t views;
   uint normal_encoding;
   uint drop_facing_away;
 };
-UMB_ASSERT_SIZE(MarkBlocksPush, 32);
+UMB_ASSERT_SIZE(MarkBlocksPush, 24);
 
 struct PlaceMapsPush {     // place_maps
   uint64_t frame;

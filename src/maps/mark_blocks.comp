@@ -66,6 +66,6 @@ void main() {
     LightRecord light = Lights(frame.lights).v[map.light];
     if (!light_meets_box(light, block.positions)) continue;
     if (push.drop_facing_away != 0u && block_faces_away(block, light)) continue;
-    mark_box(frame, push.views, map_index, map, block.positions);
+    mark_box(frame, map_index, map, block.positions);
   }
 }

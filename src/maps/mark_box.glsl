@@ -40,8 +40,8 @@ void mark_receivers(FrameRecord frame, MapRecord map, uint view, ViewFootprint s
 }
 
 /// What receivers in a box look up in a map.
-void mark_box(FrameRecord frame, uint64_t views, uint map_index, MapRecord map, Box box) {
-  ShadowView view = Views(views).v[map.first_view];   // the faces of a cube differ in nothing that is read here
+void mark_box(FrameRecord frame, uint map_index, MapRecord map, Box box) {
+  ShadowView view = Views(frame.views).v[map.first_view];   // the faces of a cube differ in nothing that is read here
   float margin = view_receiver_margin_m(view, map.kind, box.lo, box.hi, map.resolution);
   box.lo -= margin;
   box.hi += margin;

@@ -52,5 +52,5 @@ void main() {
   Uints(frame.pair_maps).v[pair] = map_index;
   if (has_flag(MapsMarkBlocks)) return;
   MapRecord map = Maps(frame.maps).v[map_index];
-  mark_box(frame, push.views, map_index, map, box);
+  mark_box(frame, map_index, map, box);
 }

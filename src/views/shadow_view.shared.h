@@ -46,18 +46,18 @@ UMB_FN vec4 clip_of_relative(ShadowView view, vec3 r) {
 }
 UMB_FN vec4 view_clip_position(ShadowView view, vec3 position_ws) { return clip_of_relative(view, position_ws - view.origin); }
 
-UMB_FN ShadowView perspective_view(vec3 origin, float near_m, mat3 rotation, float tangent) {
-  mat3 rows = transpose(rotation);
+/// A view without a projection yet.
+UMB_FN ShadowView bare_view(vec3 origin) {
   ShadowView view;
   view.origin = origin;
-  view.near_m = near_m;
-  view.x_row = rows[0] / tangent;
-  view.y_row = rows[1] / tangent;
+  view.near_m = 0.0f;
+  view.x_row = vec3(0.0f);
+  view.y_row = vec3(0.0f);
   view.z_row = vec3(0.0f);
-  view.z_offset = near_m;
-  view.w_row = rows[2];
-  view.w_offset = 0.0f;
-  view.tangent = tangent;
+  view.z_offset = 0.0f;
+  view.w_row = vec3(0.0f);
+  view.w_offset = 1.0f;
+  view.tangent = 0.0f;
   view.side_m = 0.0f;
   view.resolution = 0u;
   view.light = 0u;
@@ -69,6 +69,30 @@ UMB_FN ShadowView perspective_view(vec3 origin, float near_m, mat3 rotation, flo
   return view;
 }
 
+UMB_FN ShadowView perspective_view(vec3 origin, float near_m, mat3 rotation, float tangent) {
+  mat3 rows = transpose(rotation);
+  ShadowView view = bare_view(origin);
+  view.near_m = near_m;
+  view.x_row = rows[0] / tangent;
+  view.y_row = rows[1] / tangent;
+  view.z_offset = near_m;
+  view.w_row = rows[2];
+  view.w_offset = 0.0f;
+  view.tangent = tangent;
+  return view;
+}
+
+/// A square of half_side_m around the origin, seen from infinitely far. depth_range_m: from depth 0 to 1; depth_offset: the origin's.
+UMB_FN ShadowView parallel_view(vec3 origin, mat3 rows, float half_side_m, float depth_range_m, float depth_offset) {
+  ShadowView view = bare_view(origin);
+  view.x_row = rows[0] / half_side_m;
+  view.y_row = rows[1] / half_side_m;
+  view.z_row = rows[2] / -depth_range_m;
+  view.z_offset = depth_offset;
+  view.side_m = half_side_m * 2.0f;
+  return view;
+}
+
 /// Along a direction, around a world box, with `guard` texels to spare on every side at a resolution.
 UMB_FN ShadowView ortho_view(vec3 direction, vec3 box_min, vec3 box_max, uint resolution, uint guard) {
   mat3 rotation = view_rotation(direction);
@@ -76,25 +100,8 @@ UMB_FN ShadowView ortho_view(vec3 direction, vec3 box_min, vec3 box_max, uint re
   OrthoFit fit = ortho_fit(rotation, box_min, box_max, resolution, guard);
   float half_side = fit.texel_m * float(resolution) * 0.5f;
   float range = max(fit.depth_max - fit.depth_min, 1e-6f);
-  ShadowView view;
-  view.origin = rows[0] * (fit.origin.x + half_side) + rows[1] * (fit.origin.y + half_side);
-  view.near_m = 0.0f;
-  view.x_row = rows[0] / half_side;
-  view.y_row = rows[1] / half_side;
-  view.z_row = rows[2] / -range;
-  view.z_offset = fit.depth_max / range;
-  view.w_row = vec3(0.0f);
-  view.w_offset = 1.0f;
-  view.tangent = 0.0f;
-  view.side_m = half_side * 2.0f;
-  view.resolution = 0u;
-  view.light = 0u;
-  view.atlas_x = 0u;
-  view.atlas_y = 0u;
-  view.x_offset = 0.0f;
-  view.y_offset = 0.0f;
-  view.grid = 0.0f;
-  return view;
+  vec3 origin = rows[0] * (fit.origin.x + half_side) + rows[1] * (fit.origin.y + half_side);
+  return parallel_view(origin, rows, half_side, range, fit.depth_max / range);
 }
 
 // --- What lookups reach -----------------------------------------------------------------------------------------------

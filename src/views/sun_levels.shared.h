@@ -28,26 +28,7 @@ UMB_FN float power_of_two_above(float x) { return uintBitsToFloat((floatBitsToUi
 UMB_FN ShadowView sun_plane(vec3 direction, vec3 box_min, vec3 box_max) {
   vec3 largest = max(abs(box_min), abs(box_max));
   float reach = power_of_two_above(max(max(largest.x, max(largest.y, largest.z)), 1e-6f));
-  mat3 rows = transpose(view_rotation(direction));
-  ShadowView view;
-  view.origin = vec3(0.0f);
-  view.near_m = 0.0f;
-  view.x_row = rows[0] / (16.0f * reach);
-  view.y_row = rows[1] / (16.0f * reach);
-  view.z_row = rows[2] / (-4.0f * reach);
-  view.z_offset = 0.5f;
-  view.w_row = vec3(0.0f);
-  view.w_offset = 1.0f;
-  view.tangent = 0.0f;
-  view.side_m = 32.0f * reach;
-  view.resolution = 0u;
-  view.light = 0u;
-  view.atlas_x = 0u;
-  view.atlas_y = 0u;
-  view.x_offset = 0.0f;
-  view.y_offset = 0.0f;
-  view.grid = 0.0f;
-  return view;
+  return parallel_view(vec3(0.0f), transpose(view_rotation(direction)), 16.0f * reach, 4.0f * reach, 0.5f);
 }
 
 /// A rectangle of the plane in its view's coordinates; lo > hi: empty.

@@ -9,21 +9,7 @@ CascadeRig::CascadeRig(Gpu& gpu, const TestScene& test_scene, std::vector<cascad
     : gpu_(gpu),
       scene_(gpu.device(), gpu.memory(), {}),
       pipelines_(take(scene::ScenePipelines::create(gpu.factory()))),
-      mask_(gpu, VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT, 16, 16) {
-  std::vector<uint32_t> checkers(256);
-  for (uint32_t i = 0; i < checkers.size(); ++i) checkers[i] = (i / 4 + i / 64) % 2 ? 0xffffffffu : 0x00ffffffu;
-  gpu.fill(mask_, checkers.data(), checkers.size() * sizeof(uint32_t), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-  gpu.set_mask(0, mask_);
-  const MaskId mask = take(scene_.add_mask(mask_.view(), VK_NULL_HANDLE));
-  for (const TestMesh& mesh : test_scene.meshes) {
-    const Submesh masked{.index_count = static_cast<uint32_t>(mesh.indices.size()), .mask = mask};
-    MeshDesc desc{.positions = mesh.positions, .indices = mesh.indices, .uvs = mesh.uvs};
-    if (!mesh.uvs.empty()) desc.submeshes = {&masked, 1};
-    meshes_.push_back(take(scene_.add_mesh(desc)));
-  }
-  for (const TestInstance& instance : test_scene.instances)
-    instances.push_back(take(scene_.add_instance(
-        {.mesh = meshes_[instance.mesh], .world_from_mesh = instance.world_from_mesh, .mobility = instance.mobility})));
+      casters_(add_casters(gpu, scene_, test_scene)) {
   set_sun(sun);
   for (const cascades::CascadeSettings& mode : settings) {
     Mode& made = modes_.emplace_back();

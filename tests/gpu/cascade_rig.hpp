@@ -2,7 +2,7 @@
 #pragma once
 #include "cascades/cascades.hpp"
 #include "gpu.hpp"
-#include "test_scene.hpp"
+#include "scene_casters.hpp"
 
 namespace umbrage::test {
 
@@ -11,9 +11,10 @@ class CascadeRig {
   /// The last of `settings` is also drawn fresh in every frame: what the others must come to.
   CascadeRig(Gpu&, const TestScene&, std::vector<cascades::CascadeSettings> settings, const glm::vec3& sun);
 
-  MeshId mesh(size_t i) const { return meshes_[i]; }
+  MeshId mesh(size_t i) const { return casters_.meshes[i]; }
   scene::GpuScene& scene() { return scene_; }
-  std::vector<InstanceId> instances;
+  /// In the scene's order; tests add their own.
+  std::vector<InstanceId>& instances() { return casters_.instances; }
 
   /// One frame of every mode; seconds pass before it.
   void frame(const CameraDesc&, double seconds = 1.0 / 30);
@@ -42,8 +43,7 @@ class CascadeRig {
   Gpu& gpu_;
   scene::GpuScene scene_;
   scene::ScenePipelines pipelines_;
-  Image mask_;
-  std::vector<MeshId> meshes_;
+  SceneCasters casters_;
   std::vector<Mode> modes_;
   cascades::CascadeLight sun_;
   gpu::RetireQueue retired_;

@@ -6,7 +6,7 @@
 #include "raster/page_fragments.hpp"
 #include "raster/page_raster.hpp"
 #include "reference/page_raster.hpp"
-#include "test_scene.hpp"
+#include "scene_casters.hpp"
 
 namespace umbrage::test {
 
@@ -55,7 +55,7 @@ class PageRig {
   std::vector<Page> pages_;
   std::vector<shared::MapRecord> records_;
   scene::GpuScene scene_;
-  Image mask_;
+  SceneCasters casters_;
   gpu::RetireQueue retired_;
   std::vector<shared::CasterItem> items_[2];  // opaque, masked
   uint32_t capacity_ = 0;

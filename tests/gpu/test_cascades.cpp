@@ -87,12 +87,12 @@ void edit_at_random(CascadeRig& rig, int frame) {
   std::uniform_real_distribution<float> place(-8, 8), height(0.5f, 4);
   if (frame % 12 > 5) return;
   for (int i = 0; i < 3; ++i) {
-    const size_t which = engine() % rig.instances.size();
+    const size_t which = engine() % rig.instances().size();
     const Affine to = random_affine(static_cast<uint32_t>(engine()), {place(engine), height(engine), place(engine)});
-    const std::array ids{rig.instances[which]};
+    const std::array ids{rig.instances()[which]};
     if (engine() % 4 == 0) {
       take(rig.scene().remove(ids[0]));
-      rig.instances[which] =
+      rig.instances()[which] =
           take(rig.scene().add_instance({.mesh = rig.mesh(engine() % 2),
                                          .world_from_mesh = to,
                                          .mobility = engine() % 2 ? Mobility::movable : Mobility::fixed}));
@@ -128,7 +128,7 @@ TEST_F(Cascading, StandingStillDrawsNoTriangleIntoStaticMaps) {
   for (int i = 0; i < 20; ++i) {
     // One caster runs about all the time.
     const Affine to = affine(glm::mat3(0.5f), {0.2f * f(i) - 2, 1, 0});
-    take(rig.scene().set_transforms({&rig.instances[1], 1}, {&to, 1}));
+    take(rig.scene().set_transforms({&rig.instances()[1], 1}, {&to, 1}));
     rig.frame(camera);
     for (size_t mode = 0; mode < 3; ++mode) {
       ASSERT_EQ(rig.wrong_texels(mode), 0u);
