@@ -15,6 +15,8 @@ namespace {
 
 /// Ambient light stands in for what bounces: this share of the mean irradiance within the lights' reach.
 constexpr float ambient_share = 0.1f;
+/// With a sun comes a sky: of the sun's luminance from everywhere, bluer than the sun.
+constexpr glm::vec3 sky_share{0.034f, 0.041f, 0.054f};
 /// A scene without lights is shown by this ambient irradiance alone.
 constexpr glm::vec3 ambient_without_lights{1.0f};
 
@@ -43,7 +45,8 @@ glm::vec3 ambient_irradiance(std::span<const ActiveLight> lights, const SceneExt
   const glm::vec3 mean = directional + sum / std::max(lit_volume, 1e-20f);
   // Bounces wash colour out: half of it is the mean's grey.
   const float grey = (mean.r + mean.g + mean.b) / 3.0f;
-  return ambient_share * glm::mix(mean, glm::vec3(grey), 0.5f);
+  const float sun = glm::dot(directional * 4.0f, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+  return ambient_share * glm::mix(mean, glm::vec3(grey), 0.5f) + sky_share * sun;
 }
 
 gpu::GpuLight gpu_light(const ActiveLight& light) {
