@@ -1,11 +1,21 @@
-// The town's views.
+// Named views of a built-in scene.
 #pragma once
+#include <span>
+
 #include "import/scene.hpp"
 #include "scenes/terrain.hpp"
 
 namespace app {
 
-/// `overview` (the first: over the main street towards the church), `street` and `square` at eye height.
-void add_cameras(Scene& scene, const Terrain& terrain);
+struct View {
+  const char* name;
+  glm::vec2 eye;     ///< x, z.
+  float eye_height;  ///< Over the ground.
+  glm::vec2 target;
+  float target_height;
+  float fov_y_deg;
+};
+
+void add_cameras(Scene& scene, const Terrain& terrain, std::span<const View> views);
 
 }  // namespace app

@@ -1,4 +1,4 @@
-// The town's table of materials.
+// The table of materials.
 #include "scenes/materials.hpp"
 
 #include "scenes/textures.hpp"
@@ -57,6 +57,14 @@ void set_walls_and_ground(Scene& scene, Table& table) {
   table.set(Mat::cobble, "cobbles", {0.40f, 0.385f, 0.37f}, 0.5f, cobbles);
   table.set(Mat::grass, "grass", {0.30f, 0.37f, 0.16f}, 1.0f, grass);
   table.set(Mat::earth, "earth", {0.34f, 0.25f, 0.16f}, 1.0f, plaster);
+  const Images rows = add_surface(scene, make_rows(), 4);
+  table.set(Mat::gravel, "gravel", {0.50f, 0.44f, 0.36f}, 0.95f, plaster);
+  table.set(Mat::sand, "sand", {0.55f, 0.46f, 0.33f}, 0.95f, plaster);
+  table.set(Mat::forest_floor, "forest floor", {0.17f, 0.16f, 0.08f}, 1.0f, grass);
+  table.set(Mat::wheat, "wheat", {0.78f, 0.56f, 0.20f}, 1.0f, rows);
+  table.set(Mat::stubble, "stubble", {0.70f, 0.58f, 0.31f}, 1.0f, rows);
+  table.set(Mat::plough, "ploughed earth", {0.32f, 0.21f, 0.14f}, 1.0f, rows);
+  table.set(Mat::lake, "lake", {0.02f, 0.04f, 0.05f}, 0.16f, add_surface(scene, make_ripples(), 12));
   table.set(Mat::roof_red, "red tiles", {0.62f, 0.24f, 0.14f}, 0.75f, clay);
   table.set(Mat::roof_brown, "brown tiles", {0.42f, 0.24f, 0.15f}, 0.75f, clay);
   table.set(Mat::roof_slate, "slates", {0.27f, 0.30f, 0.35f}, 0.55f, clay);
@@ -81,6 +89,8 @@ void set_plants_and_cloth(Table& table) {
   leaf(Mat::leaf_olive, "olive leaves", {0.30f, 0.36f, 0.12f});
   leaf(Mat::leaf_autumn, "autumn leaves", {0.58f, 0.28f, 0.06f});
   leaf(Mat::leaf_dark, "needles", {0.07f, 0.17f, 0.09f});
+  leaf(Mat::leaf_gold, "golden leaves", {0.50f, 0.38f, 0.09f});
+  leaf(Mat::leaf_fir, "fir needles", {0.11f, 0.15f, 0.05f});
   leaf(Mat::petal_red, "red petals", {0.70f, 0.06f, 0.09f});
   leaf(Mat::petal_yellow, "yellow petals", {0.85f, 0.62f, 0.08f});
   leaf(Mat::straw, "straw", {0.66f, 0.50f, 0.21f});

@@ -1,4 +1,4 @@
-// What the town is made of: one table of materials and the images that they use.
+// What the built-in scenes are made of: one table of materials and the images that they use.
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,7 @@
 
 namespace app {
 
-/// Index into Scene::materials of the town. Names of painted wood and plaster say their colour.
+/// Index into Scene::materials. Names of painted wood and plaster say their colour.
 enum class Mat : uint32_t {
   plaster_cream,
   plaster_ochre,
@@ -41,6 +41,8 @@ enum class Mat : uint32_t {
   leaf_olive,
   leaf_autumn,
   leaf_dark,
+  leaf_gold,
+  leaf_fir,
   petal_red,
   petal_yellow,
   cloth_white,
@@ -50,11 +52,18 @@ enum class Mat : uint32_t {
   fruit_orange,
   fruit_green,
   water,
+  gravel,
+  sand,
+  forest_floor,
+  wheat,
+  stubble,
+  plough,
+  lake,
   sky,
   count
 };
 
-/// Fills scene.images and scene.materials. Texture coordinates of the town are metres; the materials scale them.
+/// Fills scene.images and scene.materials. Texture coordinates are metres; the materials scale them.
 void add_materials(Scene& scene);
 
 }  // namespace app

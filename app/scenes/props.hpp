@@ -1,4 +1,4 @@
-// Things that stand about in the town. Each stands on y = 0 at the origin and faces +z unless said otherwise.
+// Things that stand about in a town. Each stands on y = 0 at the origin and faces +z unless said otherwise.
 #pragma once
 #include "scenes/roof.hpp"
 
@@ -32,5 +32,8 @@ void add_broad_tree(MeshBuilder&, Detail, Mat leaves, float height, uint32_t see
 void add_spruce(MeshBuilder&, Detail, uint32_t seed);
 void add_poplar(MeshBuilder&, Detail, uint32_t seed);
 void add_bush(MeshBuilder&, Detail, uint32_t seed);
+// Of woods: few triangles, since there are many of them.
+void add_fir(MeshBuilder&, Detail, float height, uint32_t seed);
+void add_crown_tree(MeshBuilder&, Detail, Mat leaves, float height, uint32_t seed);
 
 }  // namespace app

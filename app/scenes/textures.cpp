@@ -198,6 +198,22 @@ Surface make_clay() {
   });
 }
 
+Surface make_rows() {
+  return make_surface("rows", 512, 4, [](vec2 uv) {
+    const float across = 0.5f + 0.5f * std::cos(6.2831853f * 8 * uv.y + 1.6f * fractal(uv, 6, 3, 131));
+    const float grain = fractal(uv, 64, 3, 137), patches = fractal(uv, 3, 3, 139);
+    return Texel{vec3(1.0f, 0.97f, 0.90f) * (0.45f + 0.22f * across + 0.28f * grain + 0.2f * (patches - 0.4f)),
+                 0.08f * across + 0.03f * grain};
+  });
+}
+
+Surface make_ripples() {
+  return make_surface("ripples", 256, 12, [](vec2 uv) {
+    const float waves = 0.6f * noise(uv, 14, 30, 149) + 0.3f * noise(uv, 34, 70, 151) + 0.1f * noise(uv, 80, 90, 157);
+    return Texel{grey(1), 0.045f * waves};
+  });
+}
+
 Image make_window_glow() {
   constexpr uint32_t size = 64;
   Image image = blank("window glow", size, size);
@@ -235,6 +251,60 @@ Image make_sky() {
           glm::mix(color, glm::mix(vec3(0.20f, 0.20f, 0.30f), vec3(0.80f, 0.48f, 0.40f), glow * uv.y), 0.5f * cloud);
       const float dither = (lattice(x, y, 101) - 0.5f) / 255.0f;
       store(image, x, y, color + dither);
+    }
+  }
+  return image;
+}
+
+Image make_lake_glow() {
+  constexpr uint32_t size = 256;
+  Image image = blank("lake glow", size, size);
+  for (uint32_t y = 0; y < size; ++y) {
+    for (uint32_t x = 0; x < size; ++x) {
+      const vec2 uv = (vec2(x, y) + 0.5f) / static_cast<float>(size);
+      const float streaks =
+          0.5f * noise(uv, 6, 40, 223) + 0.3f * noise(uv, 16, 110, 227) + 0.2f * fractal(uv, 5, 3, 229);
+      const float far = std::clamp(1 - uv.x + 0.25f * (streaks - 0.5f), 0.0f, 1.0f);
+      vec3 color = glm::mix(vec3(0.27f, 0.35f, 0.46f), vec3(0.80f, 0.60f, 0.46f), ramp(0.15f, 0.75f, far));
+      // The hills stand in the water of the far shore.
+      color *= 1 - 0.5f * ramp(0.78f, 0.95f, far);
+      store(image, x, y, color * (0.86f + 0.28f * (streaks - 0.3f)));
+    }
+  }
+  return image;
+}
+
+Image make_evening_sky() {
+  constexpr uint32_t width = 2048, height = 512;
+  Image image = blank("evening sky", width, height);
+  const vec3 zenith{0.20f, 0.31f, 0.52f}, middle{0.45f, 0.56f, 0.70f}, low{0.86f, 0.70f, 0.58f},
+      gold{1.0f, 0.74f, 0.42f};
+  constexpr float horizon = 0.88f, sun_v = 0.70f, brightest = 0.56f;  // Room above, for the sun.
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const vec2 uv = (vec2(x, y) + 0.5f) / vec2(width, height);
+      const float towards = 0.5f - 0.5f * std::cos(6.2831853f * uv.x), v = std::min(uv.y / horizon, 1.0f);
+      vec3 color = glm::mix(zenith, middle, ramp(0.05f, 0.80f, v));
+      color = glm::mix(color, low, ramp(0.45f, 1.0f, v) * (0.35f + 0.55f * towards));
+      color = glm::mix(color, gold, ramp(0.55f, 1.0f, v) * towards * towards * towards);
+      // Long thin clouds, lit from below towards the sun.
+      const float band = noise(uv, 9, 40, 83) * 0.5f + noise(uv, 21, 96, 89) * 0.3f + noise(uv, 60, 200, 97) * 0.2f;
+      const float cloud = ramp(0.50f, 0.76f, band) * ramp(0.30f, 0.62f, v) * (1 - ramp(0.97f, 1.0f, v));
+      color = glm::mix(color, glm::mix(vec3(0.50f, 0.48f, 0.56f), vec3(1.0f, 0.70f, 0.50f), towards), 0.65f * cloud);
+      const vec2 from_sun = (uv - vec2(0.5f, sun_v)) * vec2(4.0f, 1.0f);
+      const float halo = glm::dot(from_sun, from_sun);
+      color = glm::mix(color, vec3(1.0f, 0.80f, 0.52f), 0.75f * std::exp(-40.0f * halo));
+      color += vec3(0.9f, 0.75f, 0.5f) * std::exp(-1100.0f * halo);
+      // Ridges in the haze, the nearer one lower and darker.
+      for (uint32_t ridge = 0; ridge < 2; ++ridge) {
+        const float near = static_cast<float>(ridge);
+        const float crest = fractal(vec2(uv.x, 0.37f + 0.2f * near), ridge ? 10 : 6, 6, 211 + 7 * ridge);
+        const float top = horizon - 0.075f * crest + 0.012f * near - 0.012f;
+        const vec3 haze = glm::mix(vec3(0.42f, 0.47f, 0.60f), vec3(0.84f, 0.60f, 0.46f), towards * towards);
+        color = glm::mix(color, haze * (0.86f - 0.24f * near), ramp(0.0f, 0.0022f, uv.y - top));
+      }
+      const float dither = (lattice(x, y, 101) - 0.5f) / 255.0f;
+      store(image, x, y, color * brightest + dither);
     }
   }
   return image;

@@ -32,7 +32,7 @@ struct Frontage {
 
 class Planner {
  public:
-  explicit Planner(const Terrain& terrain) : terrain_(terrain) {}
+  explicit Planner(const Terrain& terrain) : terrain_(terrain), half_m_(terrain.site().half_m) {}
 
   TownPlan run() {
     place_church();
@@ -79,7 +79,11 @@ class Planner {
   void place_country();
   void drop_blocked_lamp_spots();
 
+  /// How many of something there are in this town at so many a hectare.
+  int tries(float per_hectare) const { return static_cast<int>(std::lround(per_hectare * 4e-4f * half_m_ * half_m_)); }
+
   const Terrain& terrain_;
+  float half_m_;
   TownPlan plan_;
   std::vector<Footprint> taken_;
   std::vector<Standing> houses_;
@@ -157,7 +161,7 @@ std::vector<Frontage> Planner::frontages() {
   result.push_back({m + h, m + vec2(-h.x, h.y), {0, -1}, 2.1f, 0.1f, 13});
   result.push_back({m - h, m + vec2(h.x, -h.y), {0, 1}, 2.1f, 0.1f, 13});
   // Main streets first: they get the long unbroken rows.
-  std::vector<Street> streets = terrain_.streets();
+  std::vector<Street> streets = terrain_.site().streets;
   std::stable_sort(streets.begin(), streets.end(),
                    [](const Street& a, const Street& b) { return a.half_width > b.half_width; });
   for (const Street& street : streets) {
@@ -178,7 +182,7 @@ bool Planner::try_house(const Frontage& frontage, float along, size_t style_inde
   const vec2 front = frontage.from + direction * along - frontage.facing * frontage.setback;
   const float turn = std::atan2(frontage.facing.x, frontage.facing.y), depth = style.depth + style.wing_m;
   const Footprint f{front - frontage.facing * (depth / 2), {style.width / 2 + 0.02f, depth / 2}, turn};
-  if (std::max(std::abs(f.middle.x), std::abs(f.middle.y)) > town_half_m - 2) return false;
+  if (std::max(std::abs(f.middle.x), std::abs(f.middle.y)) > half_m_ - 2) return false;
   float floor = -1e9f;
   for (float u : {-1.0f, 0.0f, 1.0f}) {
     for (float v : {-1.0f, 0.0f, 1.0f}) {
@@ -262,7 +266,7 @@ void Planner::furnish_house(const HouseStyle& style, vec2 front, float turn, flo
 
 void Planner::place_street_lamps() {
   constexpr float spacing = 13.0f, apart = 7.5f;
-  for (const Street& street : terrain_.streets()) {
+  for (const Street& street : terrain_.site().streets) {
     const float length = glm::distance(street.from, street.to);
     const vec2 along = (street.to - street.from) / length, left{along.y, -along.x};
     const int count = std::max(1, static_cast<int>(std::lround(length / spacing)));
@@ -270,7 +274,7 @@ void Planner::place_street_lamps() {
       const float side = i % 2 ? 1.0f : -1.0f;
       const vec2 at = street.from + along * (length * (static_cast<float>(i) + 0.5f) / static_cast<float>(count)) +
                       left * side * (street.half_width + 0.35f);
-      if (std::max(std::abs(at.x), std::abs(at.y)) > town_half_m || terrain_.street_distance(at) < 0.3f) continue;
+      if (std::max(std::abs(at.x), std::abs(at.y)) > half_m_ || terrain_.street_distance(at) < 0.3f) continue;
       const vec3 foot{at.x, terrain_.ground(at), at.y};
       const bool crowded = std::any_of(plan_.lamps.begin(), plan_.lamps.end(), [&](const Standing& other) {
         return glm::distance(other.position, foot) < apart;
@@ -292,7 +296,7 @@ void Planner::place_roadside() {
   constexpr Thing things[] = {{Model::planter, {0.6f, 0.6f}}, {Model::crates, {0.9f, 0.9f}},
                               {Model::planter, {0.6f, 0.6f}}, {Model::cart, {1.0f, 2.3f}},
                               {Model::planter, {0.6f, 0.6f}}, {Model::barrels, {0.9f, 0.9f}}};
-  for (const Street& street : terrain_.streets()) {
+  for (const Street& street : terrain_.site().streets) {
     if (street.half_width < 3.5f) continue;
     const float length = glm::distance(street.from, street.to);
     const vec2 along = (street.to - street.from) / length, left{along.y, -along.x};
@@ -300,7 +304,7 @@ void Planner::place_roadside() {
       const float side = random_.chance(0.5f) ? 1.0f : -1.0f;
       const vec2 p = street.from + along * at + left * side * (street.half_width - 0.95f);
       const Thing& thing = things[random_.index(std::size(things))];
-      if (std::max(std::abs(p.x), std::abs(p.y)) > town_half_m || terrain_.street_distance(p) < -1.2f) continue;
+      if (std::max(std::abs(p.x), std::abs(p.y)) > half_m_ || terrain_.street_distance(p) < -1.2f) continue;
       try_put(thing.model, p, std::atan2(along.x, along.y) + random_.around(0.15f), thing.half + 0.3f, -2.6f);
     }
   }
@@ -330,19 +334,19 @@ void Planner::place_yards() {
       {Model::laundry, {3.1f, 0.6f}},    {Model::firewood, {1.3f, 0.5f}}, {Model::well, {1.2f, 1.2f}},
       {Model::flower_bed, {1.5f, 0.7f}}, {Model::cart, {1.0f, 2.0f}},     {Model::bench, {1, 0.5f}},
       {Model::barrels, {0.9f, 0.9f}},    {Model::bush, {0.8f, 0.8f}},     {Model::laundry, {3.1f, 0.6f}}};
-  for (int i = 0; i < 420; ++i) {
-    const vec2 at{random_.around(town_half_m - 2), random_.around(town_half_m - 2)};
+  for (int i = 0; i < tries(105); ++i) {
+    const vec2 at{random_.around(half_m_ - 2), random_.around(half_m_ - 2)};
     if (terrain_.street_distance(at) < 5) continue;
     try_put(trees[random_.index(trees.size())], at, random_.around(half_turn), {1.75f, 1.75f}, 2.5f,
             random_.range(0.8f, 1.1f));
   }
-  for (int i = 0; i < 900; ++i) {
-    const vec2 at{random_.around(town_half_m - 2), random_.around(town_half_m - 2)};
+  for (int i = 0; i < tries(225); ++i) {
+    const vec2 at{random_.around(half_m_ - 2), random_.around(half_m_ - 2)};
     const Furniture& pick = furniture[static_cast<size_t>(i) % std::size(furniture)];
     try_put(pick.model, at, random_.around(half_turn), pick.half + 0.2f, 3);
   }
-  for (int i = 0; i < 600; ++i) {
-    const vec2 at{random_.around(town_half_m - 3), random_.around(town_half_m - 3)};
+  for (int i = 0; i < tries(150); ++i) {
+    const vec2 at{random_.around(half_m_ - 3), random_.around(half_m_ - 3)};
     const Footprint f{at, {0.7f, 0.8f}, random_.around(half_turn)};
     if (terrain_.street_distance(at) < 3 || !is_free(f)) continue;
     plan_.lamp_spots.push_back({Model::yard_lamp, {at.x, terrain_.ground(at), at.y}, f.turn, 1});
@@ -351,8 +355,8 @@ void Planner::place_yards() {
 }
 
 void Planner::place_country() {
-  for (int i = 0; i < 52; ++i) {
-    const float angle = random_.around(half_turn), out = random_.range(112, 150);
+  for (int i = 0; i < terrain_.site().outlying_trees; ++i) {
+    const float angle = random_.around(half_turn), out = half_m_ + random_.range(12, 50);
     const vec2 at{out * std::sin(angle), out * std::cos(angle)};
     const Model model = random_.chance(0.6f) ? Model::spruce : random_.chance(0.4f) ? Model::poplar : Model::lime;
     if (random_.chance(0.55f)) try_put(model, at, angle * 7, {1.5f, 1.5f}, 1.5f, random_.range(0.8f, 1.25f));
@@ -363,7 +367,7 @@ void Planner::drop_blocked_lamp_spots() {
   std::erase_if(plan_.lamp_spots, [&](const Standing& lamp) {
     const vec3 light = lamp_light(lamp);
     const vec2 at{light.x, light.z};
-    if (std::max(std::abs(at.x), std::abs(at.y)) > town_half_m) return true;
+    if (std::max(std::abs(at.x), std::abs(at.y)) > half_m_) return true;
     // Yard lamps have taken their own footprint; a wall lamp's light hangs this far from its own house.
     return lamp.model == Model::wall_lamp &&
            std::any_of(taken_.begin(), taken_.end(), [&](const Footprint& f) { return inside(f, at, 0.45f); });

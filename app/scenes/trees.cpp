@@ -134,6 +134,53 @@ void add_poplar(MeshBuilder& builder, Detail detail, uint32_t seed) {
   }
 }
 
+void add_fir(MeshBuilder& builder, Detail detail, float height, uint32_t seed) {
+  Random random(seed);
+  const bool low = detail == Detail::low;
+  builder.tube(Mat::bark, std::array{vec3(0, -0.6f, 0), vec3(0, height * 0.9f, 0)},
+               std::array{height * 0.022f, height * 0.004f}, low ? 3 : 5);
+  // Skirts of hanging branches, with a ragged hem.
+  const int tiers = low ? 4 : 8, points = low ? 5 : 7;
+  for (int tier = 0; tier < tiers; ++tier) {
+    const float t = static_cast<float>(tier) / static_cast<float>(tiers), hem = height * (0.09f + 0.84f * t);
+    const float reach = height * 0.21f * std::pow(1 - t, 0.85f) + 0.12f, rise = height * (low ? 0.34f : 0.2f);
+    const vec3 top{random.around(0.05f), std::min(hem + rise, height), random.around(0.05f)};
+    const float start = random.range(0, 6.2831853f);
+    std::vector<vec3> positions{top}, normals{{0, 1, 0}};
+    std::vector<uint32_t> indices;
+    for (int i = 0; i < 2 * points; ++i) {
+      const float angle = start + 3.1415927f * static_cast<float>(i) / static_cast<float>(points);
+      const float out = reach * (i % 2 ? random.range(0.5f, 0.66f) : random.range(0.85f, 1.1f));
+      const vec3 side{std::cos(angle), 0, -std::sin(angle)};
+      positions.push_back(side * out + vec3(0, hem + (i % 2 ? 0.25f : -0.12f) * reach, 0));
+      normals.push_back(glm::normalize(side + vec3(0, 0.45f, 0)));
+      const auto next = static_cast<uint32_t>((i + 1) % (2 * points));
+      indices.insert(indices.end(), {0u, static_cast<uint32_t>(i) + 1, next + 1});
+    }
+    builder.surface(Mat::leaf_fir, positions, normals, {}, indices);
+  }
+}
+
+void add_crown_tree(MeshBuilder& builder, Detail detail, Mat leaves, float height, uint32_t seed) {
+  Random random(seed);
+  const bool low = detail == Detail::low;
+  const vec3 fork{0, height * 0.42f, 0};
+  builder.tube(Mat::bark, std::array{vec3(0, -0.6f, 0), fork, vec3(0, height * 0.8f, 0)},
+               std::array{height * 0.03f, height * 0.022f, height * 0.006f}, low ? 3 : 5);
+  const int clumps = 13;
+  for (int i = 0; i < clumps; ++i) {
+    const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(clumps),
+                angle = 2.399963f * static_cast<float>(i);
+    const float out = height * 0.26f * std::sin(3.1415927f * (0.12f + 0.80f * t));
+    const vec3 centre{out * std::cos(angle), height * (0.38f + 0.5f * t), out * std::sin(angle)};
+    if (!low && i % 2 == 0)
+      builder.tube(Mat::bark, std::array{vec3(0, centre.y - 0.14f * height, 0), centre},
+                   std::array{height * 0.012f, height * 0.004f}, 3);
+    add_clump(builder, centre, {.mat = leaves, .count = 16, .radius = height * 0.15f, .leaf = height * 0.095f}, detail,
+              random);
+  }
+}
+
 void add_bush(MeshBuilder& builder, Detail detail, uint32_t seed) {
   Random random(seed);
   for (int i = 0; i < 9; ++i) {

@@ -1,5 +1,6 @@
 # The built-in scenes: counts, consistency, determinism, light placement.
-add_executable(test_houses ${CMAKE_CURRENT_LIST_DIR}/test_houses.cpp)
-umbrage_flags(test_houses)
-target_link_libraries(test_houses PRIVATE app_scenes GTest::gtest_main)
-gtest_discover_tests(test_houses)
+add_executable(test_builtin_scenes ${CMAKE_CURRENT_LIST_DIR}/test_builtin_scenes.cpp ${CMAKE_CURRENT_LIST_DIR}/test_houses.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/test_landscape.cpp ${CMAKE_CURRENT_LIST_DIR}/builtin_scene.cpp)
+umbrage_flags(test_builtin_scenes)
+target_link_libraries(test_builtin_scenes PRIVATE app_scenes GTest::gtest_main)
+gtest_discover_tests(test_builtin_scenes)
