@@ -12,7 +12,7 @@ void Frame::record_scene(gpu::Recorder& recorder, const FramePlan& plan, gpu::Up
 
 void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, const gpu::Buffer& requests) {
   // Depth → occupied clusters with explicit bounds and normal cones (O1, O9).
-  clusters.record_clusters(recorder, block, counters, plan.tiles, plan.normal_encoding);
+  clusters.record_clusters(recorder, block, counters, plan.seen());
 
   // Clusters → lights of each, through the light tree; which lights are used at all (O1).
   clusters.record_lights(recorder, block, counters, scene, light_shape(), plan.settings.light_assignment);
@@ -22,7 +22,7 @@ void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (scene.light_slots() == 0 || plan.store == Store::fixed_cubes) return;
 
   // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
-  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, plan.normal_encoding,
+  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, plan.seen(),
                          backing(plan.store), plan.all_lights});
 
   // Marked pages → places in the pool, cleared; or a list for the host, which binds them (O18).

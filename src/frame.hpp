@@ -23,20 +23,25 @@ namespace umbrage {
 struct FramePlan {
   FrameSettings settings;
   Store store = Store::page_pool;
-  glm::uvec2 tiles{0};
-  NormalEncoding normal_encoding = NormalEncoding::none;
+  std::array<clusters::FrameCamera, shared::MaxCameras> cameras;
+  std::array<CameraId, shared::MaxCameras> camera_ids;
+  uint32_t camera_count = 0;
   bool all_lights = false;
   bool cascades = false;
   uint32_t caster_rounds = 1;
   VkPipelineStageFlags2 consumer_stages = 0;
   uint64_t serial = 0;
+
+  std::span<const clusters::FrameCamera> seen() const { return {cameras.data(), camera_count}; }
 };
 
 /// The device's record of a frame, as it lies in one buffer.
 struct FrameBlock {
-  shared::FrameRecord record;
+  shared::FrameRecord record;   // of the first camera
   shared::TreeShape caster_shape, light_shape;
   std::array<shared::MapImage, shared::MaxMapImages> images;
+  std::array<shared::CameraRecord, shared::MaxCameras> cameras;
+  std::array<shared::FrameRecord, shared::MaxCameras - 1> other_records;   // of the other cameras
 };
 
 struct Frame {
@@ -58,6 +63,12 @@ struct Frame {
   raster::PageWriterInputs page_inputs(const FramePlan&) const;
 
   VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }
+  VkDeviceAddress camera_record(uint32_t camera) const {
+    return block.address() + offsetof(FrameBlock, cameras) + camera * sizeof(shared::CameraRecord);
+  }
+  VkDeviceAddress frame_record(uint32_t camera) const {
+    return camera == 0 ? block.address() : block.address() + offsetof(FrameBlock, other_records) + (camera - 1) * sizeof(shared::FrameRecord);
+  }
   VkDeviceAddress image_table() const { return block.address() + offsetof(FrameBlock, images); }
   VkDeviceAddress light_shape() const { return block.address() + offsetof(FrameBlock, light_shape); }
 

@@ -84,19 +84,15 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     if (desc.serial <= s.last_serial) return invalid("FrameDesc::serial must grow: it is " + std::to_string(desc.serial) + " after " + std::to_string(s.last_serial));
     if (!std::isfinite(desc.time_s)) return invalid("FrameDesc::time_s must be finite");
     if (desc.completed_serial >= desc.serial) return invalid("FrameDesc::completed_serial must be less than serial");
-    if (desc.cameras.size() != 1) return invalid("FrameDesc::cameras: one camera is supported, not " + std::to_string(desc.cameras.size()));
-    const CameraDesc& camera = desc.cameras[0];
-    if (!camera.depth) return invalid("CameraDesc::depth is VK_NULL_HANDLE");
-    if ((camera.normal == VK_NULL_HANDLE) != (camera.normal_encoding == NormalEncoding::none))
-      return invalid("CameraDesc: a normal image and an encoding belong together");
-    auto record = clusters::camera_record(camera);
-    if (!record) return record.error();
+    const auto made = camera_records(desc.cameras);
+    if (!made) return made.error();
+    const std::span<const shared::CameraRecord> cameras = made->all();
     auto slot = s.free_slot(desc);
     if (!slot) return slot.error();
     s.collect(desc.completed_serial);
     if (auto ok = s.lay_out_maps(desc.settings); !ok) return ok.error();
-    if (auto ok = s.reserve(**slot, *record, desc); !ok) return ok.error();
-    if (auto ok = s.begin_cascades(**slot, *record, desc); !ok) return ok.error();
+    if (auto ok = s.reserve(**slot, cameras.back().end_tile, desc); !ok) return ok.error();
+    if (auto ok = s.begin_cascades(**slot, cameras.front(), desc); !ok) return ok.error();
     if (auto ok = s.frame->scene.upload((*slot)->uploader, s.retired, desc.serial); !ok) {
       s.frame->cascades.stop();
       return ok.error();
@@ -109,21 +105,22 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.current->serial = s.last_serial = desc.serial;
     s.next_slot = (s.next_slot + 1) % static_cast<uint32_t>(s.slots.size());
     if (s.edited) s.edit_serial = desc.serial, s.edited = false, s.caster_pairs_known = false;
-    s.plan = {.settings = desc.settings, .store = s.settings.store, .tiles = record->tiles, .normal_encoding = camera.normal_encoding,
-              .all_lights = camera.other_receivers, .cascades = !s.cascade_lights.empty(), .caster_rounds = s.plan_rounds(), .consumer_stages = desc.consumer_stages, .serial = desc.serial};
+    s.plan = {.settings = desc.settings, .store = s.settings.store, .cascades = !s.cascade_lights.empty(), .caster_rounds = s.plan_rounds(),
+              .consumer_stages = desc.consumer_stages, .serial = desc.serial};
+    s.plan_cameras(desc.cameras, cameras);
     FrameBlock block{};
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
     block.record.marks_blocks = desc.settings.receiver_boxes == ReceiverBoxes::blocks;
-    s.fill_block(block, *record, *s.current);
+    s.fill_block(block, cameras, *s.current);
     std::memset(s.current->statistics.mapped(), 0, sizeof(shared::TapCounts));
     if (s.current->page_requests) std::memset(s.current->page_requests.mapped(), 0, sizeof(shared::SparseRequests));
     s.pages_bound = false;
-    s.current->uploader.copy(s.frame->block, 0, &block, sizeof block);
+    s.current->uploader.copy(s.frame->block, 0, &block, offsetof(FrameBlock, other_records) + (cameras.size() - 1) * sizeof(shared::FrameRecord));
     shared::FrameCounters counters{};
     counters.pair_limit = s.plan.caster_rounds * s.caster_pairs_per_round();
     s.current->uploader.copy(s.frame->counters, 0, &counters, sizeof counters);
     if (s.plan.cascades) s.frame->cascades.upload(s.current->uploader);
-    s.write_sets(*s.current, camera);
+    s.write_sets(*s.current, desc.cameras);
     s.current->without_map = s.without_map;
   }
   s.current->cpu_record_ms = cpu_ms;
@@ -180,8 +177,11 @@ Result<void> ShadowSystem::bind_pages(const PageBinding& binding) {
   return {};
 }
 
-ShaderInterface ShadowSystem::shader_interface(CameraId) const {
-  return {.frame = state_->frame->block.address(), .set = state_->current ? state_->current->host_set : VK_NULL_HANDLE};
+ShaderInterface ShadowSystem::shader_interface(CameraId id) const {
+  const auto ids = std::span(state_->plan.camera_ids).first(state_->plan.camera_count);
+  const auto found = std::find_if(ids.begin(), ids.end(), [&](CameraId other) { return other.value == id.value; });
+  const auto camera = static_cast<uint32_t>(found == ids.end() ? 0 : found - ids.begin());
+  return {.frame = state_->frame->frame_record(camera), .set = state_->current ? state_->current->host_set : VK_NULL_HANDLE};
 }
 
 uint32_t ShadowSystem::shader_store() const { return state_->shader_store(); }

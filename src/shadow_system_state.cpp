@@ -46,12 +46,12 @@ Result<void> ShadowSystem::State::create_host_layout() {
 }
 
 Result<void> ShadowSystem::State::create_sets(uint32_t frames_in_flight) {
-  const std::array<VkDescriptorPoolSize, 3> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (3 + 2 * shared::MaxMapImages) * frames_in_flight},
+  const std::array<VkDescriptorPoolSize, 3> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (1 + 2 * shared::MaxCameras + 2 * shared::MaxMapImages) * frames_in_flight},
                                                    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::MaxMasks},
-                                                   {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, std::max(storage_images(), 1u) * frames_in_flight}}};
+                                                   {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, std::max(storage_images(), 1u) * shared::MaxCameras * frames_in_flight}}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT;
-  info.maxSets = 2 * frames_in_flight + 1;
+  info.maxSets = (shared::MaxCameras + 1) * frames_in_flight + 1;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
   info.pPoolSizes = sizes.data();
   VkResult result = device->vk().vkCreateDescriptorPool(device->handle(), &info, device->callbacks(), &pool);
@@ -66,7 +66,8 @@ Result<void> ShadowSystem::State::create_sets(uint32_t frames_in_flight) {
     return {};
   };
   for (FrameSlot& slot : slots) {
-    if (auto ok = allocate(pipelines->frame_set_layout(), slot.frame_set); !ok) return ok.error();
+    for (VkDescriptorSet& set : slot.frame_sets)
+      if (auto ok = allocate(pipelines->frame_set_layout(), set); !ok) return ok.error();
     if (auto ok = allocate(host_layout, slot.host_set); !ok) return ok.error();
   }
   return allocate(pipelines->mask_set_layout(), mask_set);
@@ -196,10 +197,10 @@ Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settin
   return {};
 }
 
-Result<void> ShadowSystem::State::reserve(FrameSlot& slot, const shared::CameraRecord& camera, const FrameDesc& desc) {
+Result<void> ShadowSystem::State::reserve(FrameSlot& slot, uint32_t tile_count, const FrameDesc& desc) {
   scene::GpuScene& scene = frame->scene;
   const uint32_t light_slots = scene.light_slots();
-  if (auto ok = frame->clusters.reserve(*device, *memory, camera.tiles, pair_capacity, light_slots, outgrown); !ok) return ok.error();
+  if (auto ok = frame->clusters.reserve(*device, *memory, tile_count, pair_capacity, light_slots, outgrown); !ok) return ok.error();
   if (auto ok = frame->views.reserve(*device, *memory, views, outgrown); !ok) return ok.error();
   // The include names the atlas, so that there is one in any case.
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
@@ -327,9 +328,44 @@ uint32_t ShadowSystem::State::shader_store() const {
   return shared::StorePool;
 }
 
-void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraRecord& camera, const FrameSlot& slot) const {
+Result<CameraRecords> camera_records(std::span<const CameraDesc> cameras) {
+  const auto invalid = [](std::string text) { return Error{ErrorCode::invalid_argument, std::move(text)}; };
+  if (cameras.empty() || cameras.size() > shared::MaxCameras)
+    return invalid("FrameDesc::cameras: 1…" + std::to_string(shared::MaxCameras) + " cameras are supported, not " + std::to_string(cameras.size()));
+  CameraRecords made;
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const CameraDesc& camera = cameras[i];
+    if (!camera.depth) return invalid("CameraDesc::depth is VK_NULL_HANDLE");
+    if ((camera.normal == VK_NULL_HANDLE) != (camera.normal_encoding == NormalEncoding::none))
+      return invalid("CameraDesc: a normal image and an encoding belong together");
+    for (size_t other = 0; other < i; ++other)
+      if (cameras[other].id.value == camera.id.value)
+        return invalid("FrameDesc::cameras: two have the id " + std::to_string(camera.id.value) + "; each needs its own");
+    auto record = clusters::camera_record(camera);
+    if (!record) return record.error();
+    record->first_tile = i == 0 ? 0 : made.records[i - 1].end_tile;
+    record->end_tile += record->first_tile;
+    made.records[made.count++] = *record;
+  }
+  return made;
+}
+
+void ShadowSystem::State::plan_cameras(std::span<const CameraDesc> cameras, std::span<const shared::CameraRecord> records) {
+  plan.camera_count = static_cast<uint32_t>(cameras.size());
+  for (uint32_t i = 0; i < plan.camera_count; ++i) {
+    plan.cameras[i] = {.record = frame->camera_record(i), .images = current->frame_sets[i], .tiles = records[i].tiles,
+                       .normal_encoding = cameras[i].normal_encoding};
+    plan.camera_ids[i] = cameras[i].id;
+    plan.all_lights |= cameras[i].other_receivers;
+  }
+}
+
+void ShadowSystem::State::fill_block(FrameBlock& block, std::span<const shared::CameraRecord> cameras, const FrameSlot& slot) const {
   shared::FrameRecord& record = block.record;
-  record.camera = camera;
+  record.camera = cameras.front();
+  record.cameras = frame->camera_record(0);
+  record.camera_count = static_cast<uint32_t>(cameras.size());
+  record.tile_count = cameras.back().end_tile;
   record.lights = frame->scene.light_buffer().address();
   record.light_order = frame->scene.light_order_buffer().address();
   record.counters = frame->counters.address();
@@ -348,9 +384,14 @@ void ShadowSystem::State::fill_block(FrameBlock& block, const shared::CameraReco
   std::copy(images.begin(), images.end(), block.images.begin());
   block.caster_shape = scene::tree_shape(frame->scene.caster_slots());
   block.light_shape = scene::tree_shape(frame->scene.light_slots());
+  std::copy(cameras.begin(), cameras.end(), block.cameras.begin());
+  for (size_t i = 1; i < cameras.size(); ++i) {
+    block.other_records[i - 1] = record;
+    block.other_records[i - 1].camera = cameras[i];
+  }
 }
 
-void ShadowSystem::State::write_sets(FrameSlot& slot, const CameraDesc& camera) {
+void ShadowSystem::State::write_sets(FrameSlot& slot, std::span<const CameraDesc> cameras) {
   const gpu::Functions& vk = device->vk();
   const auto write = [&](VkDescriptorSet set, uint32_t binding, uint32_t element, const VkDescriptorImageInfo& image, VkDescriptorType type) {
     VkWriteDescriptorSet out{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
@@ -361,8 +402,11 @@ void ShadowSystem::State::write_sets(FrameSlot& slot, const CameraDesc& camera) 
   };
   constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
   constexpr VkImageLayout kDepthRead = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
-  write(slot.frame_set, 0, 0, {VK_NULL_HANDLE, camera.depth, camera.depth_layout}, kSampled);
-  if (camera.normal) write(slot.frame_set, 1, 0, {VK_NULL_HANDLE, camera.normal, camera.normal_layout}, kSampled);
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const CameraDesc& camera = cameras[i];
+    write(slot.frame_sets[i], 0, 0, {VK_NULL_HANDLE, camera.depth, camera.depth_layout}, kSampled);
+    if (camera.normal) write(slot.frame_sets[i], 1, 0, {VK_NULL_HANDLE, camera.normal, camera.normal_layout}, kSampled);
+  }
   write(slot.host_set, 0, 0, {VK_NULL_HANDLE, frame->store.atlas().view(), kDepthRead}, kSampled);
   // All elements, so that none names an image that is gone.
   const std::vector<gpu::Image>& images = frame->map_images(settings.store).images();
@@ -372,7 +416,7 @@ void ShadowSystem::State::write_sets(FrameSlot& slot, const CameraDesc& camera) 
       write(slot.host_set, 1, i, {VK_NULL_HANDLE, image.view(), kDepthRead}, kSampled);
     } else {
       write(slot.host_set, 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, kSampled);
-      write(slot.frame_set, 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+      write(slot.frame_sets[0], 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     }
   }
 
@@ -385,7 +429,7 @@ void ShadowSystem::State::write_sets(FrameSlot& slot, const CameraDesc& camera) 
 }
 
 gpu::Recorder ShadowSystem::State::recorder(VkCommandBuffer commands, FrameSlot& slot) {
-  return {*device, *pipelines, commands, &slot.timers, slot.frame_set, mask_set, hazard_log};
+  return {*device, *pipelines, commands, &slot.timers, slot.frame_sets[0], mask_set, hazard_log};
 }
 
 }  // namespace umbrage

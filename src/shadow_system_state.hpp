@@ -18,7 +18,8 @@ struct FrameSlot {
   gpu::Buffer cascade_states;       // readback, with cascades: CascadeState each
   std::vector<CascadeStatistics> cascades;  // what the host knew of them
   gpu::Buffer page_requests;        // readback, hardware sparse: SparseRequests, then pages
-  VkDescriptorSet frame_set = VK_NULL_HANDLE, host_set = VK_NULL_HANDLE;
+  std::array<VkDescriptorSet, shared::MaxCameras> frame_sets{};   // the first also names the store's images
+  VkDescriptorSet host_set = VK_NULL_HANDLE;
   uint64_t serial = 0;              // 0: never used
   uint32_t light_slots = 0;
   double cpu_record_ms = 0;
@@ -26,6 +27,14 @@ struct FrameSlot {
   std::vector<LightStatus> without_map;
 };
 
+/// Of a frame's cameras, their tiles numbered on.
+struct CameraRecords {
+  std::array<shared::CameraRecord, shared::MaxCameras> records;
+  uint32_t count = 0;
+  std::span<const shared::CameraRecord> all() const { return {records.data(), count}; }
+};
+/// Errors: invalid_argument.
+Result<CameraRecords> camera_records(std::span<const CameraDesc>);
 /// Directional lights that can have cascades.
 uint32_t most_cascade_lights(const FrameSettings&);
 
@@ -50,7 +59,7 @@ struct ShadowSystem::State {
   void choose_cascade_lights(const FrameSettings&);
   Result<void> begin_cascades(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
   void read_cascade_statistics(const FrameSlot&);
-  Result<void> reserve(FrameSlot&, const shared::CameraRecord&, const FrameDesc&);
+  Result<void> reserve(FrameSlot&, uint32_t tile_count, const FrameDesc&);
   Result<void> reserve_fixed_cubes(const FrameDesc&);
   Result<void> reserve_virtual_maps(const FrameDesc&);
   Result<void> reserve_page_pool(const FrameDesc&);
@@ -69,8 +78,9 @@ struct ShadowSystem::State {
   uint32_t caster_capacity() const;
   uint32_t caster_pairs_per_round() const;
   uint32_t plan_rounds();
-  void write_sets(FrameSlot&, const CameraDesc&);
-  void fill_block(FrameBlock&, const shared::CameraRecord&, const FrameSlot&) const;
+  void plan_cameras(std::span<const CameraDesc>, std::span<const shared::CameraRecord>);
+  void write_sets(FrameSlot&, std::span<const CameraDesc>);
+  void fill_block(FrameBlock&, std::span<const shared::CameraRecord>, const FrameSlot&) const;
   gpu::Recorder recorder(VkCommandBuffer, FrameSlot&);
 
   StaticSettings settings;

@@ -16,7 +16,7 @@ enum class NormalEncoding : uint8_t {
   xyz_signed,       ///< World-space, first three channels of a signed format.
 };
 
-/// A camera whose depth buffer names the receivers. Projection is recovered from the matrices: either handedness,
+/// A camera whose depth buffer names the receivers: the picture's, the other eye's, a face of a reflection map. Projection is recovered from the matrices: either handedness,
 /// reversed, infinite or OpenGL depth, flipped y, jitter, orthographic. Depth images: single-sampled, aspect depth.
 struct CameraDesc {
   CameraId id{1};
@@ -39,7 +39,7 @@ struct FrameDesc {
   uint64_t completed_serial = 0;           ///< The newest frame whose submission the device has finished; 0 = none.
   double time_s = 0;                       ///< The host's clock: how long casters have stood still (FrameSettings::static_after_ms).
   FrameSettings settings;
-  std::span<const CameraDesc> cameras;     ///< One camera for now.
+  std::span<const CameraDesc> cameras;     ///< 1…8, with different ids. The first divides the cascades.
   /// Stages that read the results after record_shadows.
   VkPipelineStageFlags2 consumer_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 };

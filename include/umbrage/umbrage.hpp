@@ -62,6 +62,7 @@ class ShadowSystem {
   /// Binds the pages that were asked for and unbinds others. Errors (out_of_memory, device_lost, vulkan, invalid_argument): the frame's
   /// shadows cannot be recorded; begin the next one.
   Result<void> bind_pages(const PageBinding&);
+  /// Of a camera of the frame; of the first where none has the id.
   ShaderInterface shader_interface(CameraId) const;
   /// For UMBRAGE_STORE in the shader: which code lookups need.
   uint32_t shader_store() const;

@@ -33,9 +33,9 @@ void assign(CameraRecord camera, uvec2 tile, ivec2 pixel) {
 }
 
 void main() {
-  CameraRecord camera = Frame(push.frame).record.camera;
+  CameraRecord camera = Cameras(push.camera).v[0];
   uvec2 tile = gl_WorkGroupID.xy;
-  uint tile_index = tile.y * camera.tiles.x + tile.x;
+  uint tile_index = camera.first_tile + tile.y * camera.tiles.x + tile.x;
   uint thread = gl_LocalInvocationIndex;
   for (uint slice = thread; slice < MaxSlices; slice += threads) {
     bits[slice] = 0u;

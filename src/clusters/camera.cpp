@@ -90,6 +90,7 @@ Result<shared::CameraRecord> camera_record(const CameraDesc& desc) {
 
   out.size = {desc.width, desc.height};
   out.tiles = (out.size + glm::uvec2(shared::TileSide - 1)) / shared::TileSide;
+  out.end_tile = out.tiles.x * out.tiles.y;
   out.slice_origin = static_cast<float>(t_first);
   out.slices_are_logarithmic = perspective;
   // Cells as deep as a tile is high (Olsson et al. 2012: self-similar subdivision), and no more of them than there is room for.

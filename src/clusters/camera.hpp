@@ -6,7 +6,8 @@
 
 namespace umbrage::clusters {
 
-/// Errors: invalid_argument when a matrix is not finite, singular, or neither a perspective nor an orthographic projection.
+/// Its tiles are numbered from 0. Errors: invalid_argument when a matrix is not finite, singular, or neither a perspective nor an
+/// orthographic projection.
 Result<shared::CameraRecord> camera_record(const CameraDesc&);
 
 }  // namespace umbrage::clusters

@@ -6,7 +6,7 @@
 UMB_NAMESPACE_BEGIN
 
 struct AssignPush {            // assign_clusters
-  uint64_t frame;              // FrameRecord
+  uint64_t camera;             // CameraRecord
   uint64_t words;              // ClusterWord [tile][SliceWords]
   uint64_t found;              // FoundCluster [tile][MaxSlices], the first tile_counts[tile] filled
   uint64_t tile_counts;
@@ -25,6 +25,7 @@ UMB_ASSERT_SIZE(FoundCluster, 16);
 
 struct CompactPush {           // count_clusters, compact_clusters
   uint64_t frame;
+  uint64_t camera;             // compact_clusters: CameraRecord
   uint64_t words;
   uint64_t found;
   uint64_t tile_counts;        // count_clusters turns counts into first indices
@@ -33,7 +34,7 @@ struct CompactPush {           // count_clusters, compact_clusters
   uint64_t boxes;
   uint64_t cones;
 };
-UMB_ASSERT_SIZE(CompactPush, 64);
+UMB_ASSERT_SIZE(CompactPush, 72);
 
 struct LightListPush {         // list_lights
   uint64_t frame;

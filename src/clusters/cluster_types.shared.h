@@ -21,8 +21,13 @@ struct CameraRecord {
   float slice_scale;       // slices per log2 of t (perspective) or per unit of t (orthographic)
   uint slices_are_logarithmic;
   uint slice_count;
+  uint first_tile;         // tiles are numbered on from camera to camera
+  uint end_tile;
 };
-UMB_ASSERT_SIZE(CameraRecord, 200);
+UMB_ASSERT_SIZE(CameraRecord, 208);
+
+/// Of a frame.
+UMB_CONST uint MaxCameras = 8u;
 
 /// 32 slices of a tile: which are occupied, and the number of the first one's cluster.
 struct ClusterWord {
@@ -38,9 +43,11 @@ struct ClusterList {
 };
 UMB_ASSERT_SIZE(ClusterList, 8);
 
-/// Everything that a lookup needs, at one address.
+/// Everything that a lookup needs, at one address. Each camera has such a record; they differ in `camera` alone, and the passes
+/// read the first.
 struct FrameRecord {
   CameraRecord camera;
+  uint64_t cameras;          // CameraRecord
   uint64_t lights;           // LightRecord
   uint64_t light_order;      // slots of the lights alive, directional ones first
   uint64_t cluster_words;    // ClusterWord [tile][SliceWords]
@@ -74,8 +81,10 @@ struct FrameRecord {
   float depth_step;          // of stored depths: what rounding may make of one more than it is; 0: 32 bits
   uint marks_blocks;         // 1: what the maps know of a cluster's receivers holds for the depth buffer's samples alone
   uint64_t cascades;         // CascadeTable, or 0
+  uint camera_count;
+  uint tile_count;           // of all cameras
 };
-UMB_ASSERT_SIZE(FrameRecord, 408);
+UMB_ASSERT_SIZE(FrameRecord, 432);
 
 /// FrameRecord::store.
 UMB_CONST uint StoreAtlas = 0u;

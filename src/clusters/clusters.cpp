@@ -42,9 +42,8 @@ Result<Clusters> Clusters::create(const gpu::PipelineFactory& factory) {
   return out;
 }
 
-Result<void> Clusters::reserve(const gpu::Device& device, gpu::Memory& memory, glm::uvec2 tiles, uint32_t pair_capacity,
+Result<void> Clusters::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t tile_count, uint32_t pair_capacity,
                                uint32_t light_slots, std::vector<gpu::Buffer>& retired) {
-  const uint32_t tile_count = tiles.x * tiles.y;
   const uint32_t clusters = std::max(tile_count * shared::ClustersPerTile, 4096u);
   struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
   Need needs[] = {{words_, tile_count * shared::SliceWords * sizeof(shared::ClusterWord), "cluster words", {}},
@@ -87,14 +86,19 @@ void Clusters::fill(shared::FrameRecord& frame) const {
   frame.pair_capacity = pair_capacity_;
 }
 
-void Clusters::record_clusters(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Buffer& counters, glm::uvec2 tiles,
-                               NormalEncoding encoding) {
+void Clusters::record_clusters(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Buffer& counters,
+                               std::span<const FrameCamera> cameras) {
   {
     gpu::Scope scope(recorder, "assign clusters");
     gpu::Pass pass = recorder.pass("assign clusters");
-    const shared::AssignPush push{.frame = pass.read(frame), .words = pass.write(words_), .found = pass.write(found_),
-                                  .tile_counts = pass.write(tile_counts_), .normal_encoding = static_cast<uint32_t>(encoding)};
-    pass.dispatch(assign_, push, tiles.x, tiles.y);
+    pass.read(frame);
+    shared::AssignPush push{.words = pass.write(words_), .found = pass.write(found_), .tile_counts = pass.write(tile_counts_)};
+    for (const FrameCamera& camera : cameras) {
+      recorder.use_frame_set(camera.images);
+      push.camera = camera.record, push.normal_encoding = static_cast<uint32_t>(camera.normal_encoding);
+      pass.dispatch(assign_, push, camera.tiles.x, camera.tiles.y);
+    }
+    recorder.use_frame_set(cameras[0].images);
   }
   gpu::Scope scope(recorder, "compact clusters");
   shared::CompactPush push{};
@@ -107,7 +111,10 @@ void Clusters::record_clusters(gpu::Recorder& recorder, const gpu::Buffer& frame
   push.frame = pass.read(frame), push.words = pass.write(words_), push.found = pass.read(found_);
   push.tile_counts = pass.read(tile_counts_), push.counters = pass.read(counters), push.cells = pass.write(cells_);
   push.boxes = pass.write(boxes_), push.cones = pass.write(cones_);
-  pass.dispatch(compact_, push, tiles.x, tiles.y);
+  for (const FrameCamera& camera : cameras) {
+    push.camera = camera.record;
+    pass.dispatch(compact_, push, camera.tiles.x, camera.tiles.y);
+  }
 }
 
 void Clusters::record_lights(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Buffer& counters,

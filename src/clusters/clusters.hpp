@@ -8,16 +8,24 @@
 
 namespace umbrage::clusters {
 
+/// A camera as the passes that read its images take it.
+struct FrameCamera {
+  VkDeviceAddress record = 0;            ///< shared::CameraRecord
+  VkDescriptorSet images = VK_NULL_HANDLE;  ///< Descriptor set 0, with its depth and normals.
+  glm::uvec2 tiles{0};
+  NormalEncoding normal_encoding = NormalEncoding::none;
+};
+
 class Clusters {
  public:
   static Result<Clusters> create(const gpu::PipelineFactory&);
-  /// Buffers for a picture of this size and lists of so many pairs.
-  Result<void> reserve(const gpu::Device&, gpu::Memory&, glm::uvec2 tiles, uint32_t pair_capacity, uint32_t light_slots,
+  /// Buffers for pictures of so many tiles in all and lists of so many pairs.
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t tile_count, uint32_t pair_capacity, uint32_t light_slots,
                        std::vector<gpu::Buffer>& retired);
   /// Puts its addresses and capacities into the frame's record.
   void fill(shared::FrameRecord&) const;
-  /// Depth (and normals) from descriptor set 0 → clusters. `frame` and `counters` as in FrameRecord.
-  void record_clusters(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, glm::uvec2 tiles, NormalEncoding);
+  /// Depth (and normals) of each camera → clusters. `frame` and `counters` as in FrameRecord.
+  void record_clusters(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, std::span<const FrameCamera>);
   /// Clusters → light lists, and which lights are used.
   void record_lights(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,
                      VkDeviceAddress tree_shape, LightAssignment);

@@ -7,16 +7,15 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform PushBlock { CompactPush push; };
 
 void main() {
-  CameraRecord camera = Frame(push.frame).record.camera;
+  CameraRecord camera = Cameras(push.camera).v[0];
   uint capacity = Frame(push.frame).record.cluster_capacity;
   bool tight = Frame(push.frame).record.explicit_bounds != 0u;
   uvec2 tile = gl_WorkGroupID.xy;
-  uint tile_index = tile.y * camera.tiles.x + tile.x;
+  uint tile_index = camera.first_tile + tile.y * camera.tiles.x + tile.x;
   uint thread = gl_LocalInvocationIndex;
   uint first = Uints(push.tile_counts).v[tile_index];
   if (thread < SliceWords) ClusterWords(push.words).v[tile_index * SliceWords + thread].first += first;
-  uint tile_count = camera.tiles.x * camera.tiles.y;
-  uint end = tile_index + 1u < tile_count ? Uints(push.tile_counts).v[tile_index + 1u] : Counters(push.counters).counters.clusters_found;
+  uint end = tile_index + 1u < Frame(push.frame).record.tile_count ? Uints(push.tile_counts).v[tile_index + 1u] : Counters(push.counters).counters.clusters_found;
   for (uint i = thread; i < end - first; i += 32u) {
     uint cluster = first + i;
     if (cluster >= capacity) break;

@@ -8,8 +8,7 @@ layout(push_constant, scalar) uniform PushBlock { CompactPush push; };
 shared uint sums[128];
 
 void main() {
-  uvec2 tiles = Frame(push.frame).record.camera.tiles;
-  uint total = tiles.x * tiles.y;
+  uint total = Frame(push.frame).record.tile_count;
   uint thread = gl_LocalInvocationIndex;
   uint share = (total + 127u) / 128u;
   uint begin = min(thread * share, total);

@@ -89,6 +89,10 @@ class Recorder {
            VkDescriptorSet frame_set, VkDescriptorSet mask_set, HazardLog* log)
       : device_(device), factory_(factory), commands_(commands), timers_(timers), sets_{frame_set, mask_set}, log_(log) {}
   Pass pass(const char* name) { return {*this, name}; }
+  /// From the next pipeline on.
+  void use_frame_set(VkDescriptorSet set) {
+    if (set != sets_[0]) sets_[0] = set, sets_bound_ = {};
+  }
   const Device& device() const { return device_; }
   /// Makes contents visible to stages outside of the library.
   void publish(std::span<const Buffer* const>, std::span<const Image* const>, VkPipelineStageFlags2 stages);

@@ -66,8 +66,9 @@ UMB_FN uint cascade_at(UmbrageCascadeTables table, uint first, float t, vec3 pos
   return NoIndex;
 }
 
+/// From the first camera, whose view the cascades divide.
 UMB_FN float camera_depth(Frame frame, vec3 position_ws) {
-  vec4 row = UmbrageFrames(frame.address).v[0].camera.t_row;
+  vec4 row = UmbrageCameras(UmbrageFrames(frame.address).v[0].cameras).v[0].t_row;
   return dot(vec3(row.x, row.y, row.z), position_ws) + row.w;
 }
 

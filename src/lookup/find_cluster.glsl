@@ -2,7 +2,7 @@
 
 UMB_FN Cluster cluster_of_cell(Frame frame, uvec2 tile, uint slice) {
   UmbrageFrames f = UmbrageFrames(frame.address);
-  uint tile_index = tile.y * f.v[0].camera.tiles.x + tile.x;
+  uint tile_index = f.v[0].camera.first_tile + tile.y * f.v[0].camera.tiles.x + tile.x;
   ClusterWord word = UmbrageWords(f.v[0].cluster_words).v[tile_index * SliceWords + (slice >> 5u)];
   uint bit = 1u << (slice & 31u);
   uint index = word.first + uint(bitCount(word.occupied & (bit - 1u)));

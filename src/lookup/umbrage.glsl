@@ -23,6 +23,7 @@
 #define UMBRAGE_REFERENCE(name, type, align) \
   layout(buffer_reference, scalar, buffer_reference_align = align) readonly buffer name { type v[]; }
 UMBRAGE_REFERENCE(UmbrageFrames, FrameRecord, 8);
+UMBRAGE_REFERENCE(UmbrageCameras, CameraRecord, 4);
 UMBRAGE_REFERENCE(UmbrageLights, LightRecord, 4);
 UMBRAGE_REFERENCE(UmbrageViews, ShadowView, 4);
 UMBRAGE_REFERENCE(UmbrageWords, ClusterWord, 4);
@@ -108,7 +109,7 @@ vec4 umbrage_cluster_cone(Frame frame, uint index) {
 uvec2 umbrage_cluster_cell(Frame frame, Cluster cluster) {
   if (cluster.index == NoIndex) return uvec2(NoIndex);
   uint cell = UmbrageUints(UmbrageFrames(frame.address).v[0].cluster_cells).v[cluster.index];
-  return uvec2(cell / MaxSlices, cell % MaxSlices);
+  return uvec2(cell / MaxSlices - UmbrageFrames(frame.address).v[0].camera.first_tile, cell % MaxSlices);
 }
 
 #include "lookup/find_map.glsl"

@@ -80,11 +80,12 @@ UMB_ASSERT_SIZE(PlaceLevelsPush, 32);
 
 struct MarkBlocksPush {    // mark_blocks
   uint64_t frame;
+  uint64_t camera;         // CameraRecord of the one whose images are bound
   uint64_t counters;
   uint normal_encoding;
   uint drop_facing_away;
 };
-UMB_ASSERT_SIZE(MarkBlocksPush, 24);
+UMB_ASSERT_SIZE(MarkBlocksPush, 32);
 
 struct PlaceMapsPush {     // place_maps
   uint64_t frame;

@@ -38,7 +38,7 @@ class Maps {
     const gpu::Buffer& counters;
     const gpu::Buffer& views;
     const FrameSettings& settings;
-    NormalEncoding normal_encoding;      ///< Of the image in descriptor set 0.
+    std::span<const clusters::FrameCamera> cameras;
     Backing backing;
     bool all_lights;
   };

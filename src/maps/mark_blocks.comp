@@ -54,10 +54,13 @@ void main() {
   ClusterList list = ClusterLists(frame.cluster_lists).v[cluster];
   if (list.first == NoIndex) return;   // looked up in whole maps
   uint cell = Uints(frame.cluster_cells).v[cluster];
+  CameraRecord camera = Cameras(push.camera).v[0];
   uint tile_index = cell / MaxSlices;
-  uvec2 tile = uvec2(tile_index % frame.camera.tiles.x, tile_index / frame.camera.tiles.x);
+  if (tile_index < camera.first_tile || tile_index >= camera.end_tile) return;   // of another camera, whose images are not at hand
+  tile_index -= camera.first_tile;
+  uvec2 tile = uvec2(tile_index % camera.tiles.x, tile_index / camera.tiles.x);
   uvec2 own = uvec2(gl_LocalInvocationIndex % BlocksPerRow, gl_LocalInvocationIndex / BlocksPerRow);
-  Block block = read_block(frame.camera, tile * TileSide + own * BlockSide, cell % MaxSlices);
+  Block block = read_block(camera, tile * TileSide + own * BlockSide, cell % MaxSlices);
   if (block.positions.lo.x > block.positions.hi.x) return;
   for (uint pair = list.first; pair < list.first + list.count; ++pair) {
     uint map_index = Uints(frame.pair_maps).v[pair];

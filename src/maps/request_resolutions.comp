@@ -21,11 +21,13 @@ float request(FrameRecord frame, uint cluster, Box box, LightRecord light) {
   vec4 sphere = vec4((box.lo + box.hi) * 0.5, length(box.hi - box.lo) * 0.5);
   if (has_flag(MapsDropFacingAway) && faces_away(Cones(frame.cluster_cones).v[cluster], sphere.xyz, sphere.w, light)) return 0.0;
   ShadowView view = Views(push.views).v[light.first_view];
-  float pixel_m = nearest_pixel_m(frame.camera, box, slice);
+  CameraRecord camera = camera_of_tile(frame, tile_index);
+  float pixel_m = nearest_pixel_m(camera, box, slice);
   if (has_levels(light)) return Views(push.views).v[light.first_view + SunPlane].side_m / pixel_m;
   if (light.views == ViewsOrtho) return view.side_m / pixel_m;
-  if (!tight) sphere = cell_sphere(frame.camera, uvec2(tile_index % frame.camera.tiles.x, tile_index / frame.camera.tiles.x), slice);
-  float pixels = tight ? box_pixels(frame.camera, box) : float(TileSide * TileSide);
+  uint tile = tile_index - camera.first_tile;
+  if (!tight) sphere = cell_sphere(camera, uvec2(tile % camera.tiles.x, tile / camera.tiles.x), slice);
+  float pixels = tight ? box_pixels(camera, box) : float(TileSide * TileSide);
   float alpha = sphere_solid_angle(sphere.w, distance(sphere.xyz, light.position_ws));
   float paper = paper_resolution(pixels, alpha, view.tangent);
   if (has_flag(MapsPaperResolution)) return paper;

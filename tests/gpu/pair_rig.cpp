@@ -76,15 +76,21 @@ void PairRig::replace(const SeenScene& seen) {
   show(seen.camera, seen.seen);
 }
 
-Pairs PairRig::evaluate(const FrameSettings& settings) {
-  const uint32_t width = receivers().width, height = receivers().height, lights = static_cast<uint32_t>(light_ids.size());
+Pairs PairRig::evaluate(const FrameSettings& settings) { return evaluate(settings, camera().id, receivers(), samples_); }
+
+Pairs PairRig::evaluate(const FrameSettings& settings, CameraId id, const Receivers& seen) {
+  return evaluate(settings, id, seen, upload_samples(gpu(), seen));
+}
+
+Pairs PairRig::evaluate(const FrameSettings& settings, CameraId id, const Receivers& seen, const gpu::Buffer& samples) {
+  const uint32_t width = seen.width, height = seen.height, lights = static_cast<uint32_t>(light_ids.size());
   const size_t pixels = size_t(width) * height;
   const gpu::Buffer visibility = gpu().buffer(std::max<size_t>(pixels * lights, 1) * sizeof(float), gpu::MemoryKind::device, "visibility");
   const gpu::Buffer clusters = gpu().buffer(pixels * sizeof(uint32_t), gpu::MemoryKind::device, "clusters of pixels");
   frame(settings, [&](VkCommandBuffer commands) {
-    const ShaderInterface shadows = system().shader_interface(camera().id);
+    const ShaderInterface shadows = system().shader_interface(id);
     program_.dispatch(commands, shadows.set,
-                      PairPush{shadows.frame, samples_.address(), visibility.address(), clusters.address(), width, height, lights},
+                      PairPush{shadows.frame, samples.address(), visibility.address(), clusters.address(), width, height, lights},
                       (width + 7) / 8, (height + 7) / 8);
   });
   Pairs pairs{lights, gpu().download<float>(visibility, pixels * lights), gpu().download<uint32_t>(clusters, pixels),

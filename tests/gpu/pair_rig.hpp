@@ -44,10 +44,13 @@ class PairRig : public SystemRig {
   void replace(const SeenScene&);
   /// A frame, and what a host would ask of it.
   Pairs evaluate(const FrameSettings& = {});
+  /// The same for what a camera sees that show_also has added.
+  Pairs evaluate(const FrameSettings&, CameraId, const Receivers&);
   /// Frames until the tables are as large as they need to be; the last one's answers.
   Pairs settle(const FrameSettings& = {});
 
  private:
+  Pairs evaluate(const FrameSettings&, CameraId, const Receivers&, const gpu::Buffer& samples);
   gpu::Buffer samples_;
   Program program_;
 };

@@ -52,15 +52,25 @@ void SystemRig::add(const TestScene& scene) {
   for (const LightDesc& light : scene.lights) light_ids.push_back(take(system_.add_light(light)));
 }
 
+SystemRig::Picture SystemRig::fill_picture(CameraDesc& camera, const Receivers& receivers) {
+  Picture made{std::make_unique<Image>(gpu_, VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, camera.width, camera.height),
+               std::make_unique<Image>(gpu_, VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT, camera.width, camera.height)};
+  gpu_.fill(*made.depth, receivers.depth.data(), receivers.depth.size() * sizeof(float), camera.depth_layout);
+  gpu_.fill(*made.normals, receivers.normals.data(), receivers.normals.size() * sizeof(glm::vec4), camera.normal_layout);
+  camera.depth = made.depth->view();
+  if (camera.normal_encoding != NormalEncoding::none) camera.normal = made.normals->view();
+  return made;
+}
+
 void SystemRig::show(const CameraDesc& camera, const Receivers& receivers) {
   camera_ = camera;
   receivers_ = receivers;
-  depth_ = std::make_unique<Image>(gpu_, VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, camera.width, camera.height);
-  normals_ = std::make_unique<Image>(gpu_, VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT, camera.width, camera.height);
-  gpu_.fill(*depth_, receivers.depth.data(), receivers.depth.size() * sizeof(float), camera.depth_layout);
-  gpu_.fill(*normals_, receivers.normals.data(), receivers.normals.size() * sizeof(glm::vec4), camera.normal_layout);
-  camera_.depth = depth_->view();
-  if (camera_.normal_encoding != NormalEncoding::none) camera_.normal = normals_->view();
+  picture_ = fill_picture(camera_, receivers);
+}
+
+void SystemRig::show_also(const CameraDesc& camera, const Receivers& receivers) {
+  cameras_.push_back(camera);
+  other_pictures_.push_back(fill_picture(cameras_.back(), receivers));
 }
 
 void SystemRig::show_nothing() {

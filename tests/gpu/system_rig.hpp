@@ -22,6 +22,8 @@ class SystemRig {
   InstanceId add(const TestInstance&);
   /// What frames see from now on.
   void show(const CameraDesc&, const Receivers&);
+  /// Beside it, with an id of its own.
+  void show_also(const CameraDesc&, const Receivers&);
   /// The same with nothing but background; every light gets its map.
   void show_nothing();
   CameraDesc& camera() { return camera_; }
@@ -53,10 +55,16 @@ class SystemRig {
   Gpu& gpu_;
   ShadowSystem system_;
   Image mask_;
-  std::unique_ptr<Image> depth_, normals_;
+  /// What a camera sees.
+  struct Picture {
+    std::unique_ptr<Image> depth, normals;
+  };
+  Picture fill_picture(CameraDesc&, const Receivers&);
+  Picture picture_;
+  std::vector<Picture> other_pictures_;
   MaskId mask_id_;
   CameraDesc camera_;
-  std::array<CameraDesc, 1> cameras_;
+  std::vector<CameraDesc> cameras_ = std::vector<CameraDesc>(1);
   Receivers receivers_;
   uint64_t serial_ = 0;
 };
