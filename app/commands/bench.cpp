@@ -245,7 +245,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
       .add_option(
           "--scene", options.scenes,
           "Repeatable. layered: files of one mesh that the unskinned cases draw; default: a ring of 35,600 triangles. "
-          "cascades: files or builtin:NAME; default: builtin:houses")
+          "cascades: files or builtin:NAME, under their own sun if they have one; default: builtin:landscape")
       ->type_name("FILE");
   command.add_option("--device", options.device, "Which GPU: an index of umbrage info, or part of a name")
       ->type_name("NAME-OR-INDEX");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "commands/active_lights.hpp"
 #include "commands/camera_source.hpp"
 #include "commands/cascade_results.hpp"
 #include "commands/image_file.hpp"
@@ -28,6 +29,7 @@ constexpr const char* kScrolled = "cascades-scrolled";
 /// Pictures of the figures: four columns and three rows of 256 texels.
 constexpr uint32_t kFigureWidth = 1044, kFigureHeight = 784;
 constexpr uint32_t kMovers = 24;
+constexpr uint32_t kLeastReach = 100, kMostReach = 2000;
 
 enum class Movers : uint8_t { none, some };
 
@@ -122,12 +124,28 @@ void add_movers(Scene& scene, const glm::mat4& camera) {
   }
 }
 
-ActiveLight sun() {
+/// The scene's own, or one from high above.
+ActiveLight sun_of(const Pose& pose) {
+  for (const PosedLight& light : pose.lights)
+    if (light.kind == LightKind::directional) return activate(light, 1, {});
   return {.name = "sun",
           .kind = LightKind::directional,
           .direction = glm::normalize(glm::vec3(0.45f, -0.8f, 0.35f)),
           .color = {1, 0.95f, 0.85f},
           .intensity = 20};
+}
+
+/// Metres that the depth range has to reach towards the sun for every caster to be in it: no ray along the light stays
+/// longer within the casters' box.
+uint32_t reach_m(const Scene& scene, const Pose& pose, const glm::vec3& direction) {
+  Box casters;
+  for_each_primitive(scene, pose, [&](const PosedPrimitive& posed) {
+    if (!scene.materials.empty() && !scene.materials[posed.primitive->material].casts_shadow) return;
+    for (const uint32_t index : posed.primitive->indices) casters.extend(posed.positions[index]);
+  });
+  if (casters.is_empty()) return kLeastReach;
+  const glm::vec3 along = (casters.max - casters.min) / glm::max(glm::abs(direction), glm::vec3(1e-3f));
+  return std::clamp(static_cast<uint32_t>(std::ceil(std::min({along.x, along.y, along.z}))), kLeastReach, kMostReach);
 }
 
 double median(std::vector<double> values) {
@@ -159,6 +177,8 @@ class CascadeStage {
     stage.start_ = camera->at(first, 0);
     if (movers == Movers::some) add_movers(*stage.scene_, stage.start_.world_from_camera);
     stage.movers_ = movers;
+    stage.sun_ = sun_of(first);
+    stage.reach_m_ = reach_m(*stage.scene_, first, stage.sun_.direction);
     const auto settings = umbrage::preset(kScrolled);
     if (!settings) return settings.error();
     auto renderer = Renderer::create({.width = width,
@@ -177,22 +197,25 @@ class CascadeStage {
                            Show show = Show::image) {
     time_s_ += 1 / kFrameRate;
     const Pose posed = pose(*scene_, movers_ == Movers::some ? time_s_ : 0);
-    const ActiveLight light = sun();
     ViewCamera camera = start_;
     camera.world_from_camera = motion.camera(start_.world_from_camera, frame);
     return renderer_->render({.pose = &posed,
-                              .lights = {&light, 1},
+                              .lights = {&sun_, 1},
                               .camera = camera,
                               .settings = settings,
                               .time_s = time_s_,
                               .show = show});
   }
   Renderer& renderer() { return *renderer_; }
+  /// What cascade_reach_m should be.
+  uint32_t reach() const { return reach_m_; }
 
  private:
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Renderer> renderer_;
   ViewCamera start_;
+  ActiveLight sun_;
+  uint32_t reach_m_ = kLeastReach;
   Movers movers_ = Movers::none;
   double time_s_ = 0;
 };
@@ -206,7 +229,7 @@ class CascadeRun {
     std::filesystem::create_directories(options_.folder, failed);
     if (failed) return invalid("cannot make " + options_.folder.string() + ": " + failed.message());
     const std::vector<std::string> scenes =
-        options_.scenes.empty() ? std::vector<std::string>{"builtin:houses"} : options_.scenes;
+        options_.scenes.empty() ? std::vector<std::string>{"builtin:landscape"} : options_.scenes;
     total_ = scenes.size() * std::size(kMotions) * std::size(kPresets);
     for (const std::string& scene : scenes) {
       for (const Movers movers : {Movers::none, Movers::some})
@@ -273,7 +296,9 @@ class CascadeRun {
     if (!settings) return settings.error();
     // What moves turns static within the warm-up where it stops, and never where it does not.
     settings->frame.static_after_ms = 50;
-    CascadeRow row{.motion = motion.name, .preset = preset, .frames = options_.is_quick ? 6u : 24u};
+    settings->frame.cascade_reach_m = stage.reach();
+    CascadeRow row{
+        .motion = motion.name, .preset = preset, .reach_m = stage.reach(), .frames = options_.is_quick ? 6u : 24u};
     row.cascade_triangles.resize(settings->frame.cascade_count);
     row.cascade_texels.resize(settings->frame.cascade_count);
     std::vector<double> gpu_ms, cpu_ms;
@@ -310,8 +335,9 @@ class CascadeRun {
     progress_.show(short_name(scene) + ", figures");
     auto stage = CascadeStage::open(scene, options_, Movers::none, kFigureWidth, kFigureHeight);
     if (!stage) return stage.error();
-    const auto settings = umbrage::preset(kScrolled);
+    auto settings = umbrage::preset(kScrolled);
     if (!settings) return settings.error();
+    settings->frame.cascade_reach_m = stage->reach();
     const struct {
       const char* stem;
       const Motion& motion;

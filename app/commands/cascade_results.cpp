@@ -70,6 +70,7 @@ Json to_json(const CascadeResults& results) {
     rows.push_back({{"scene", row.scene},
                     {"preset", row.preset},
                     {"case", row.motion},
+                    {"reach_m", row.reach_m},
                     {"frames", row.frames},
                     {"kept", row.kept},
                     {"scrolled", row.scrolled},
@@ -105,6 +106,7 @@ Result<CascadeResults> cascade_results_from_json(const nlohmann::json& document,
       results.rows.push_back({.scene = row.at("scene"),
                               .motion = row.at("case"),
                               .preset = row.at("preset"),
+                              .reach_m = row.at("reach_m"),
                               .frames = row.at("frames"),
                               .kept = row.at("kept"),
                               .scrolled = row.at("scrolled"),
@@ -126,10 +128,11 @@ Result<CascadeResults> cascade_results_from_json(const nlohmann::json& document,
 
 std::string to_csv(const CascadeResults& results) {
   std::string csv =
-      "scene,motion,preset,frames,kept,scrolled,cleared,static_triangles,active_triangles,texels_exposed,"
+      "scene,motion,preset,reach_m,frames,kept,scrolled,cleared,static_triangles,active_triangles,texels_exposed,"
       "occluded_casters,gpu_ms,gpu_ms_median,cpu_record_ms\n";
   for (const CascadeRow& row : results.rows) {
-    csv += row.scene + "," + row.motion + "," + row.preset + "," + std::to_string(row.frames);
+    csv += row.scene + "," + row.motion + "," + row.preset + "," + std::to_string(row.reach_m) + "," +
+           std::to_string(row.frames);
     for (const double value :
          {row.kept, row.scrolled, row.cleared, row.static_triangles, row.active_triangles, row.texels_exposed,
           row.occluded_casters, row.gpu_ms, row.gpu_ms_median, row.cpu_record_ms})

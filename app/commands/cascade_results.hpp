@@ -12,6 +12,7 @@ namespace app {
 /// One mode in one motion; numbers are means over the frames unless they say otherwise.
 struct CascadeRow {
   std::string scene, motion, preset;
+  uint32_t reach_m = 0;  ///< The setting cascade_reach_m.
   uint32_t frames = 0;
   double kept = 0, scrolled = 0, cleared = 0;  ///< Cascades of which the static map was.
   double static_triangles = 0, active_triangles = 0;

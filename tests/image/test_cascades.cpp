@@ -67,7 +67,7 @@ TEST(CascadeBenchLongScene, QuickShowsWhatThePaperClaims) {
     EXPECT_GT(value("standing still with movers", preset, "active_triangles"), 0);
   }
   for (const char* name :
-       {"results.csv", "report.html", "figure-3-houses.png", "figure-4-houses.png", "figure-5-houses.png"})
+       {"results.csv", "report.html", "figure-3-landscape.png", "figure-4-landscape.png", "figure-5-landscape.png"})
     EXPECT_GT(read_all(folder.file(std::string("results/") + name)).size(), 500u) << name;
 }
 
