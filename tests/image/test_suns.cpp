@@ -1,6 +1,7 @@
 // Outdoor scenes under suns against the ray tracer: wrong pixel × light pairs outside the three-pixel band ≤ 0.3 %.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -34,6 +35,42 @@ void expect_right_shadows(const Case& test) {
   EXPECT_EQ(report["lights_degraded"], 0);
   testing::Test::RecordProperty("wrong_outside_band", report["wrong_outside_band"].dump());
 }
+
+/// The landscape under its own sun and lamps: each kind of light by itself.
+void expect_right_sun_and_lamps(std::vector<std::string> options) {
+  options.insert(options.begin(), "compare");
+  const Outcome outcome = run_program(options);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json report = parse_json(outcome.out);
+  const auto& worst = report["worst_lights"];
+  const auto sun = std::find_if(worst.begin(), worst.end(), [](const auto& light) { return light["type"] == "directional"; });
+  const int evaluated = report["pairs"]["evaluated"], wrong = report["pairs"]["wrong_outside_band"];
+  EXPECT_GT(evaluated, 20000);
+  EXPECT_EQ(report["overflows"], 0);
+  EXPECT_EQ(report["unbacked_taps"], 0);
+  EXPECT_EQ(report["lights_degraded"], 0);
+  EXPECT_LE(report["acne"], 1e-4);
+  EXPECT_LE(report["leak"], 1e-4);
+  // Ten lights are listed; a sun with next to nothing wrong need not be one.
+  if (sun == worst.end()) {
+    EXPECT_LE(wrong, 0.002 * evaluated);
+    return;
+  }
+  const int of_sun = (*sun)["pairs"]["evaluated"], wrong_of_sun = (*sun)["pairs"]["wrong_outside_band"];
+  EXPECT_LE(wrong_of_sun, 0.003 * of_sun);
+  EXPECT_LE(wrong - wrong_of_sun, 0.002 * (evaluated - of_sun));
+}
+
+TEST(LandscapeFastScene, SunAndLampsAreRight) {
+  expect_right_sun_and_lamps({"builtin:landscape-lod", "--size", "320x180"});
+}
+
+class LandscapeLongScene : public testing::TestWithParam<const char*> {};
+TEST_P(LandscapeLongScene, SunAndLampsAreRight) {
+  expect_right_sun_and_lamps({"builtin:landscape", "--size", "640x360", "--camera", GetParam(), "--validate"});
+}
+INSTANTIATE_TEST_SUITE_P(Suns, LandscapeLongScene, testing::Values("overview", "street", "quay"),
+                         [](const auto& tested) { return std::string(tested.param); });
 
 class FastSunScene : public testing::TestWithParam<Case> {};
 class LongSunScene : public testing::TestWithParam<Case> {};
