@@ -196,4 +196,10 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
   add_output_options(command, options);
 }
 
+void add_mirror_option(CLI::App& command, SharedOptions& options) {
+  add_read(command, "--mirror-ball", "X,Y,Z,RADIUS",
+           reader(parse_ball, [&](const glm::vec4& ball) { options.mirror_ball = ball; }),
+           "A ball that mirrors what is around it. Needs store=page_pool");
+}
+
 }  // namespace app

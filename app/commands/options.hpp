@@ -36,11 +36,14 @@ struct SharedOptions {
   bool validate = false;
   Show show = Show::image;
   std::optional<uint32_t> show_light;
+  std::optional<glm::vec4> mirror_ball;  ///< Middle and radius.
   std::filesystem::path stats_file, trace_file, dump_folder;
   std::vector<IndexRange> dump_lights;  ///< Empty: all.
 };
 
 /// Adds them to a subcommand; options must live as long as it. Wrong values throw CLI::ValidationError while parsing.
 void add_shared_options(CLI::App& command, SharedOptions& options);
+/// Of render alone: the ray tracer knows no mirrors.
+void add_mirror_option(CLI::App& command, SharedOptions& options);
 
 }  // namespace app

@@ -73,6 +73,15 @@ umbrage::Result<glm::vec3> parse_vec3(std::string_view text) {
   return result;
 }
 
+umbrage::Result<glm::vec4> parse_ball(std::string_view text) {
+  const size_t comma = text.rfind(',');
+  const auto center = parse_vec3(text.substr(0, comma));
+  if (comma == std::string_view::npos || !center) return invalid(quoted(text) + " is not X,Y,Z,RADIUS");
+  const auto radius = parse_number(text.substr(comma + 1), 1e-6, 1e6);
+  if (!radius) return invalid(quoted(text) + " is not X,Y,Z,RADIUS: " + radius.error().message);
+  return glm::vec4(*center, static_cast<float>(*radius));
+}
+
 umbrage::Result<Extent> parse_size(std::string_view text) {
   if (std::count(text.begin(), text.end(), 'x') != 1) return invalid(quoted(text) + " is not WxH, such as 1280x720");
   std::string_view rest = text;

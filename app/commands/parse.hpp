@@ -33,6 +33,8 @@ umbrage::Result<double> parse_number(std::string_view text, double min = std::nu
 umbrage::Result<uint64_t> parse_count(std::string_view text, uint64_t min, uint64_t max);
 /// "X,Y,Z", each finite as a float.
 umbrage::Result<glm::vec3> parse_vec3(std::string_view text);
+/// "X,Y,Z,RADIUS", the radius positive.
+umbrage::Result<glm::vec4> parse_ball(std::string_view text);
 /// "WxH", each in 1…16384.
 umbrage::Result<Extent> parse_size(std::string_view text);
 /// "0,5,10-20".

@@ -24,6 +24,7 @@ Result<void> write_image(Session& session, Outputs& outputs, const std::string& 
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
   add_shared_options(command, options.shared);
+  add_mirror_option(command, options.shared);
   const auto take_image = [&options](const std::string& name) {
     if (count_number_places(name) > 1)
       throw CLI::ValidationError("-o", "\"" + name + "\" has more than one place for the frame's number");

@@ -111,6 +111,9 @@ Result<Session> Session::open(const SharedOptions& options, Progress& progress) 
   auto loaded = load_scene(options.scene);
   if (!loaded) return loaded.error();
   auto scene = std::make_unique<Scene>(std::move(*loaded));
+  std::optional<MirrorBall> mirror;
+  if (options.mirror_ball)
+    mirror = add_mirror_ball(*scene, glm::vec3(*options.mirror_ball), options.mirror_ball->w);
   const Pose first_pose = app::pose(*scene, options.time_s);
   const Box bounds = scene_bounds(*scene, first_pose);
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
@@ -127,7 +130,8 @@ Result<Session> Session::open(const SharedOptions& options, Progress& progress) 
                     .validate = options.validate,
                     .settings = *settings,
                     .batch_cache_dir = batch_cache_folder(),
-                    .max_lights = static_cast<uint32_t>(scene_lights + added->size())};
+                    .max_lights = static_cast<uint32_t>(scene_lights + added->size()),
+                    .mirror = mirror};
   progress.show("preparing " + options.scene);
   auto renderer = Renderer::create(desc, *scene);
   if (!renderer) return renderer.error();

@@ -10,6 +10,7 @@
 #include "host/gpu_timers.hpp"
 #include "host/post.hpp"
 #include "host/read_back.hpp"
+#include "host/reflection_cube.hpp"
 #include "host/shade.hpp"
 #include "host/shadow_scene.hpp"
 #include "host/show.hpp"
@@ -31,6 +32,7 @@ struct Renderer::State {
   DrawList draws;
   FrameData data;
   std::unique_ptr<ShadowScene> shadows;
+  std::unique_ptr<ReflectionCube> reflection;  ///< Null: there is no mirror ball.
   Handle<VkPipelineLayout> layout;
   GpuTimers timers;
   GBufferPass gbuffer;
@@ -46,10 +48,12 @@ struct Renderer::State {
   uint32_t light_count = 0;
 
   Result<void> create_scene(const RendererDesc&, const Scene&, const Pose&);
+  Result<void> create_reflection(const RendererDesc&, const Scene&, const Pose&);
   Result<void> create_passes(uint32_t max_lights);
   Result<void> begin_frame(const FrameInput&, const CameraMatrices&);
   Result<void> record(VkCommandBuffer, const FrameInput&, const CameraMatrices&);
   Result<VkCommandBuffer> bind_pages(VkCommandBuffer);
+  void record_reflection(VkCommandBuffer);
   void bind_sets(VkCommandBuffer, VkDescriptorSet umbrage_set) const;
   Result<FrameReport> report() const;
   Result<PassContext> begin_reading();
@@ -69,6 +73,9 @@ Result<void> take(Result<T> result, T& place) {
   place = std::move(result).value();
   return {};
 }
+
+/// CameraId of the first face of the mirror's cube map; the picture's own is 1.
+constexpr uint32_t kFirstFace = 2;
 
 /// Passes that run several times in a frame count together.
 void add_pass(std::vector<std::pair<std::string, double>>& passes, const umbrage::PassTime& pass) {
@@ -104,6 +111,7 @@ Result<Renderer> Renderer::create(const RendererDesc& desc, const Scene& scene) 
   state->gpu->shadow_store = state->shadows->system().shader_store();
   if (auto made = state->create_scene(desc, scene, pose(scene, 0.0)); !made) return made.error();
   if (auto made = state->create_passes(desc.max_lights); !made) return made.error();
+  if (auto made = state->create_reflection(desc, scene, pose(scene, 0.0)); !made) return made.error();
   return Renderer(std::move(state));
 }
 
@@ -120,6 +128,19 @@ Result<void> Renderer::State::create_scene(const RendererDesc& desc, const Scene
   if (auto made = take(FrameData::create(*gpu, desc.max_lights, extent), data); !made) return made;
   return shadows->add_scene({scene, first_pose, buffers, textures, items}, desc.batch_cache_dir,
                             desc.settings.fixed.batch_triangles);
+}
+
+Result<void> Renderer::State::create_reflection(const RendererDesc& desc, const Scene& scene, const Pose& first_pose) {
+  if (!desc.mirror) return {};
+  if (desc.settings.fixed.store != umbrage::Store::page_pool)
+    return Error{ErrorCode::unsupported, "the mirror ball is lit by maps in the page pool: choose store=page_pool"};
+  const SceneExtent& extent = data.extent();
+  const float diagonal_m = glm::length(extent.highest - extent.lowest);
+  auto made = take(ReflectionCube::create(*gpu, scene, first_pose, textures, *desc.mirror, diagonal_m), reflection);
+  if (!made) return made;
+  targets.set_reflection(*gpu, reflection->image());
+  data.frame().mirror_ball = glm::vec4(desc.mirror->center, desc.mirror->radius);
+  return {};
 }
 
 Result<void> Renderer::State::create_passes(uint32_t max_lights) {
@@ -139,13 +160,22 @@ Result<void> Renderer::State::begin_frame(const FrameInput& input, const CameraM
   if (auto updated = shadows->update(*input.pose, items, deformed); !updated) return updated;
   if (auto set = shadows->set_lights(input.lights); !set) return set;
 
-  const umbrage::CameraDesc camera_desc = umbrage_camera(camera, targets, !draws.blended().empty());
+  // The picture's camera, and the faces of the mirror's cube map: what they see is marked alike.
+  std::array<umbrage::CameraDesc, 1 + ReflectionCube::kFaces> cameras;
+  cameras[0] = umbrage_camera(camera, targets, !draws.blended().empty());
+  size_t camera_count = 1;
+  if (reflection) {
+    const auto faces = reflection->cameras(kFirstFace);
+    std::copy(faces.begin(), faces.end(), cameras.begin() + 1);
+    camera_count += faces.size();
+    if (auto begun = reflection->begin_frame(*input.pose, serial + 1); !begun) return begun;
+  }
   umbrage::FrameDesc frame;
   frame.serial = serial + 1;
   frame.completed_serial = completed;
   frame.settings = input.settings;
   frame.time_s = input.time_s;
-  frame.cameras = {&camera_desc, 1};
+  frame.cameras = {cameras.data(), camera_count};
   frame.consumer_stages = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
                           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   if (auto begun = shadows->system().begin_frame(frame); !begun) return begun;
@@ -192,6 +222,10 @@ Result<void> Renderer::State::record(VkCommandBuffer commands, const FrameInput&
   bind_sets(commands, VK_NULL_HANDLE);
   gbuffer.record(pass, draws, buffers.indices());
   timers.mark(*gpu, commands, "gbuffer");
+  if (reflection) {
+    reflection->record_depth(*gpu, commands);
+    timers.mark(*gpu, commands, "mirror depth");
+  }
   if (system.binds_pages()) {
     auto rest = bind_pages(commands);
     if (!rest) return rest.error();
@@ -200,6 +234,7 @@ Result<void> Renderer::State::record(VkCommandBuffer commands, const FrameInput&
   system.record_shadows(commands);
   timers.mark(*gpu, commands, nullptr);
 
+  record_reflection(commands);
   const umbrage::ShaderInterface shader = system.shader_interface(umbrage::CameraId{1});
   bind_sets(commands, shader.set);
   shade.record(pass);
@@ -216,6 +251,15 @@ Result<void> Renderer::State::record(VkCommandBuffer commands, const FrameInput&
   }
   data.record_read_back(*gpu, commands);
   return {};
+}
+
+void Renderer::State::record_reflection(VkCommandBuffer commands) {
+  if (!reflection) return;
+  std::array<VkDeviceAddress, ReflectionCube::kFaces> faces;
+  for (uint32_t i = 0; i < faces.size(); ++i)
+    faces[i] = shadows->system().shader_interface(umbrage::CameraId{kFirstFace + i}).frame;
+  reflection->record_color(*gpu, commands, data.address(), faces);
+  timers.mark(*gpu, commands, "mirror");
 }
 
 Result<FrameReport> Renderer::render(const FrameInput& input) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/mirror_ball.hpp"
 #include "import/scene.hpp"
 #include "umbrage/umbrage.hpp"
 
@@ -59,6 +60,7 @@ struct RendererDesc {
   umbrage::Settings settings;
   std::string batch_cache_dir;      ///< Prepared batches by content; empty = none.
   uint32_t max_lights = 0;          ///< Lights that any frame will have.
+  std::optional<MirrorBall> mirror; ///< Of the scene; it shows what is around it. Needs store=page_pool.
 };
 
 struct FrameInput {

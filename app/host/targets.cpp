@@ -64,7 +64,9 @@ Result<Targets> Targets::create(const GpuContext& context, uint32_t width, uint3
   targets.width_ = width;
   targets.height_ = height;
   const auto infos = target_infos(context);
-  std::array<VkDescriptorSetLayoutBinding, target_count> bindings;
+  std::array<VkDescriptorSetLayoutBinding, target_count + 1> bindings;
+  bindings[target_count] = {target_count, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
+                            nullptr};
   for (uint32_t i = 0; i < target_count; ++i) {
     auto image = DeviceImage::create(context, {infos[i].name, infos[i].format, width, height, 1, infos[i].usage});
     if (!image) return image.error();
@@ -88,6 +90,10 @@ Result<Targets> Targets::create(const GpuContext& context, uint32_t width, uint3
                              {VK_NULL_HANDLE, targets.images_[i].view(), layout_of(use)});
   }
   return targets;
+}
+
+void Targets::set_reflection(const GpuContext& context, const VkDescriptorImageInfo& cube) {
+  set_.write_image(context, target_count, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, cube);
 }
 
 VkRenderingAttachmentInfo attachment(const DeviceImage& image, ImageUse use, VkAttachmentLoadOp load,

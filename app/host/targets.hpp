@@ -18,6 +18,8 @@ class Targets {
   DeviceImage& operator[](Target target) { return images_[static_cast<size_t>(target)]; }
   const DeviceImage& operator[](Target target) const { return images_[static_cast<size_t>(target)]; }
   const DescriptorSet& set() const { return set_; }
+  /// The cube map that the mirror ball shows.
+  void set_reflection(const GpuContext&, const VkDescriptorImageInfo&);
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
   uint32_t pixels() const { return width_ * height_; }

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "host/gpu_timers.hpp"
-#include "layered/layer_images.hpp"
+#include "host/layer_images.hpp"
 
 namespace app {
 
@@ -212,6 +212,8 @@ Result<LayeredTimes> LayeredBench::measure(umbrage::LayeredScene& scene, const s
   LayeredTimes times{.cpu_us = std::numeric_limits<double>::max()};
   std::vector<double> gpu_ms;
   constexpr uint32_t kWarmUps = 1;  // the first run compiles and touches memory
+  constexpr uint32_t kLeastRepeats = 3;
+  double spent_ms = 0;
   for (uint32_t run = 0; run < job.repeats + kWarmUps; ++run) {
     if (auto begun = scene.begin_frame(++serial_); !begun) return begun.error();
     auto commands = gpu_->begin();
@@ -229,11 +231,14 @@ Result<LayeredTimes> LayeredBench::measure(umbrage::LayeredScene& scene, const s
     if (run < kWarmUps) continue;
     gpu_ms.push_back(read->frame_ms);
     times.cpu_us = std::min(times.cpu_us, cpu_us);
+    spent_ms += read->frame_ms;
+    if (spent_ms >= job.enough_ms && gpu_ms.size() >= kLeastRepeats) break;
   }
   std::sort(gpu_ms.begin(), gpu_ms.end());
   times.gpu_ms = gpu_ms.front();
   times.gpu_ms_spread = gpu_ms[gpu_ms.size() / 2] - gpu_ms.front();
   times.splits = pass->splits();
+  times.repeats = static_cast<uint32_t>(gpu_ms.size());
   return times;
 }
 

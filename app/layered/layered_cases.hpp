@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "layered/layered_geometry.hpp"
+#include "host/layered_geometry.hpp"
 
 namespace app {
 
@@ -48,12 +48,14 @@ struct LayeredTimes {
   double gpu_ms = 0;         ///< The least: what else a machine does only ever adds.
   double gpu_ms_spread = 0;  ///< From the least to the median.
   double cpu_us = 0;         ///< prepare and record: the least.
+  uint32_t repeats = 0;
   uint32_t splits = 0;
 };
 struct LayeredJob {
   umbrage::LayeredPassSettings settings;
   uint32_t side = 256;
   uint32_t repeats = 5;
+  double enough_ms = 1e9;  ///< Of GPU time: once spent, three repeats do.
 };
 /// Draws views into the layers of a D16 array, clear included. One scene may be measured any number of times.
 class LayeredBench {

@@ -11,8 +11,9 @@
 
 #include "host/descriptors.hpp"
 #include "host/textures.hpp"
-#include "layered/layer_images.hpp"
-#include "layered/layered_geometry.hpp"
+#include "host/layer_images.hpp"
+#include "host/layered_geometry.hpp"
+#include "host/mirror_ball.hpp"
 
 namespace app {
 
@@ -45,26 +46,6 @@ struct UseData {
   uint32_t padding = 0;
 };
 static_assert(sizeof(UseData) == 208);
-
-LayeredArrays::Mesh ball_mesh(const glm::vec4& ball) {
-  constexpr uint32_t kAround = 96, kAcross = 48;
-  LayeredArrays::Mesh mesh;
-  for (uint32_t j = 0; j <= kAcross; ++j)
-    for (uint32_t i = 0; i <= kAround; ++i) {
-      const float u = glm::two_pi<float>() * static_cast<float>(i) / kAround,
-                  v = glm::pi<float>() * static_cast<float>(j) / kAcross;
-      const glm::vec3 n(std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u));
-      const glm::vec3 p = glm::vec3(ball) + ball.w * n;
-      mesh.positions.push_back({p.x, p.y, p.z});
-      mesh.normals.push_back({n.x, n.y, n.z});
-      mesh.uvs.push_back({0, 0});
-      if (i == kAround || j == kAcross) continue;
-      const uint32_t a = j * (kAround + 1) + i, b = a + 1, c = a + kAround + 1, d = c + 1;
-      mesh.indices.insert(mesh.indices.end(), {a, b, c, b, d, c});
-    }
-  mesh.submesh.index_count = static_cast<uint32_t>(mesh.indices.size());
-  return mesh;
-}
 
 Result<Handle<VkSampler>> make_sampler(const GpuContext& gpu, bool compares) {
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
@@ -101,7 +82,8 @@ class UseDrawing {
     if (desc_.use == LayeredUse::reflection_cube) {
       data_.ball = mirror_ball(view_);
       data_.ball_index = static_cast<uint32_t>(arrays.materials.size());
-      arrays.meshes.push_back(ball_mesh(data_.ball));
+      const Primitive ball = ball_primitive(glm::vec3(data_.ball), data_.ball.w);
+      arrays.meshes.push_back(layered_mesh(ball, Material{}, ball.positions, {}));
       arrays.instances.push_back(
           {.mesh = static_cast<uint32_t>(arrays.meshes.size() - 1), .host_index = data_.ball_index});
     }

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "host/textures.hpp"
-#include "layered/layer_images.hpp"
-#include "layered/layered_geometry.hpp"
+#include "host/layer_images.hpp"
+#include "host/layered_geometry.hpp"
 
 namespace umbrage::test {
 

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "layered/layered_geometry.hpp"
+#include "host/layered_geometry.hpp"
 
 namespace umbrage::test {
 

@@ -92,8 +92,17 @@ struct GpuFrame {
   vec2 shown_depth_m;  // Range of the depth picture.
   uint light_count;
   uint padding;
+  vec4 mirror_ball;  // Middle and radius, world; radius 0: none.
   uint64_t instances, primitives, materials, lights, counters;
   uint64_t umbrage;
+};
+
+/// What the faces of the reflection cube map are lit with.
+struct GpuReflection {
+  uint64_t frame;
+  uint64_t shadows[6];  // umbrage's frame of each face
+  vec3 eye_ws;
+  uint padding;
 };
 
 /// What a debug picture is about, chosen on the device. Counts per light (GpuLightUse) follow it.
@@ -155,7 +164,7 @@ struct DeformPush {
 #ifdef __cplusplus
 static_assert(sizeof(GpuTexture) == 32 && sizeof(GpuMaterial) == 176 && sizeof(GpuPrimitive) == 40);
 static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 52 && sizeof(GpuCounters) == 36 + 4 * 256);
-static_assert(offsetof(GpuFrame, instances) == 176 && sizeof(GpuFrame) == 224);
+static_assert(offsetof(GpuFrame, instances) == 192 && sizeof(GpuFrame) == 240 && sizeof(GpuReflection) == 72);
 static_assert(sizeof(FramePush) == 40 && sizeof(ShowPush) == 88 && sizeof(DeformPush) == 88);
 static_assert(sizeof(GpuSubject) == 48 && sizeof(GpuLightUse) == 8);
 }  // namespace app::gpu

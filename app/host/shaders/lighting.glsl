@@ -1,7 +1,9 @@
 // Punctual lights (KHR_lights_punctual) on metallic-roughness surfaces (glTF 2.0, appendix B) with umbrage's visibility.
+#ifndef SHADOWS_IN_POOL  // The includer knows: no descriptors are needed.
 #define UMBRAGE_SET 2
 layout(constant_id = 1) const uint shadow_store = 0u;
 #define UMBRAGE_STORE shadow_store
+#endif
 #include "umbrage/shaders/umbrage.glsl"
 
 /// What of a light arrives at a point before visibility and material.

@@ -12,6 +12,22 @@ layout(push_constant, scalar) uniform Push { FramePush push; };
 shared uint group_lights;
 shared uint group_most;
 
+layout(set = SetTargets, binding = 8) uniform samplerCube reflection_cube;
+
+/// Of the mirror ball, looked up by direction: as if all that it shows were far away.
+vec3 shade_mirror(Frame frame, vec3 position_ws, vec3 to_eye, vec3 base_color) {
+  vec3 normal = normalize(position_ws - frame.data.mirror_ball.xyz);
+  float grazing = clamp(1.0 - dot(to_eye, normal), 0.0, 1.0);
+  vec3 share = mix(base_color, vec3(1.0), grazing * grazing * grazing * grazing * grazing);
+  return share * textureLod(reflection_cube, reflect(-to_eye, normal), 0.0).rgb;
+}
+
+/// Close to the ball's surface, and as smooth as nothing else is.
+bool is_mirror(Frame frame, vec3 position_ws, vec2 metal_rough) {
+  vec4 ball = frame.data.mirror_ball;
+  return distance(position_ws, ball.xyz) < 1.01 * ball.w && metal_rough.x == 1.0 && metal_rough.y == 0.0;
+}
+
 vec3 shade_pixel(Frame frame, ivec2 pixel, float depth, out uint lights) {
   vec4 base_color = texelFetch(base_color_target, pixel, 0);
   vec3 emissive = texelFetch(emissive_target, pixel, 0).rgb;
@@ -25,6 +41,8 @@ vec3 shade_pixel(Frame frame, ivec2 pixel, float depth, out uint lights) {
   vec3 geometric_normal = from_octahedral(texelFetch(geometric_normal_target, pixel, 0).xy);
   vec3 normal = from_octahedral(texelFetch(normal_target, pixel, 0).xy);
   vec2 metal_rough = texelFetch(metal_rough_target, pixel, 0).xy;
+  if (is_mirror(frame, frame.data.eye_ws + offset, metal_rough))
+    return shade_mirror(frame, frame.data.eye_ws + offset, eye, base_color.rgb);
   Brdf brdf = make_brdf(base_color.rgb, metal_rough.x, metal_rough.y, normal, eye);
   return emissive + shade(frame, shadows, cluster, frame.data.eye_ws + offset, geometric_normal, normal, eye, brdf);
 }

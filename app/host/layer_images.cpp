@@ -1,5 +1,5 @@
 // Plain Vulkan through the host's context.
-#include "layered/layer_images.hpp"
+#include "host/layer_images.hpp"
 
 #include <vk_mem_alloc.h>
 
@@ -78,11 +78,7 @@ Result<LayerImages> LayerImages::create(GpuContext& context, const LayerImagesDe
   }
   auto commands = context.begin();
   if (!commands) return commands.error();
-  transition(context, *commands, images.depth_.image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-             VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-  if (images.color_.image)
-    transition(context, *commands, images.color_.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-               VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  images.begin_drawing(context, *commands);
   if (auto done = context.submit_and_wait(); !done) return done.error();
   return images;
 }
@@ -108,6 +104,14 @@ umbrage::LayeredTargetDesc LayerImages::target() const {
           .layers = desc_.layers};
 }
 
+void LayerImages::begin_drawing(const GpuContext& context, VkCommandBuffer commands) const {
+  transition(context, commands, depth_.image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+             VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+  if (color_.image)
+    transition(context, commands, color_.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+               VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+}
+
 void LayerImages::end_drawing(const GpuContext& context, VkCommandBuffer commands) const {
   transition(context, commands, depth_.image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
              VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
@@ -118,12 +122,22 @@ void LayerImages::end_drawing(const GpuContext& context, VkCommandBuffer command
 
 Result<Handle<VkImageView>> LayerImages::view(const GpuContext& context, VkImageViewType type,
                                               VkImageAspectFlags aspect) const {
+  return make_view(context, type, aspect, 0, desc_.layers);
+}
+
+Result<Handle<VkImageView>> LayerImages::layer_view(const GpuContext& context, uint32_t layer,
+                                                    VkImageAspectFlags aspect) const {
+  return make_view(context, VK_IMAGE_VIEW_TYPE_2D, aspect, layer, 1);
+}
+
+Result<Handle<VkImageView>> LayerImages::make_view(const GpuContext& context, VkImageViewType type,
+                                                   VkImageAspectFlags aspect, uint32_t first, uint32_t count) const {
   const bool is_depth = aspect == VK_IMAGE_ASPECT_DEPTH_BIT;
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = is_depth ? depth_.image : color_.image;
   info.viewType = type;
   info.format = is_depth ? desc_.depth_format : desc_.color_format;
-  info.subresourceRange = {aspect, 0, 1, 0, desc_.layers};
+  info.subresourceRange = {aspect, 0, 1, first, count};
   VkImageView made = VK_NULL_HANDLE;
   const VkResult result = context.vk.vkCreateImageView(context.device(), &info, nullptr, &made);
   if (result != VK_SUCCESS) return vulkan_error("vkCreateImageView", result);

@@ -1,5 +1,5 @@
 // Scene → meshes, instances, masks of a layered scene.
-#include "layered/layered_geometry.hpp"
+#include "host/layered_geometry.hpp"
 
 #include <map>
 
@@ -45,8 +45,10 @@ class Masks {
   std::map<uint32_t, umbrage::MaskId> found_;
 };
 
-LayeredArrays::Mesh make_mesh(const Primitive& primitive, const Material& material,
-                              std::span<const glm::vec3> positions, umbrage::MaskId mask) {
+}  // namespace
+
+LayeredArrays::Mesh layered_mesh(const Primitive& primitive, const Material& material,
+                                 std::span<const glm::vec3> positions, umbrage::MaskId mask) {
   LayeredArrays::Mesh mesh;
   for (const glm::vec3& p : positions) mesh.positions.push_back(vec3(p));
   for (const glm::vec3& n : primitive.normals) mesh.normals.push_back(vec3(n));
@@ -64,38 +66,41 @@ LayeredArrays::Mesh make_mesh(const Primitive& primitive, const Material& materi
   return mesh;
 }
 
-}  // namespace
-
 bool is_solid(const Material& material) {
   const bool only_glows =
       material.unlit || (glm::vec3(material.base_color) == glm::vec3(0) && material.emissive != glm::vec3(0));
   return material.alpha_mode != AlphaMode::blend && !only_glows;
 }
 
-LayeredArrays layered_arrays(const Scene& scene, const Pose& pose, const TextureTable* textures) {
+LayeredArrays layered_arrays(const Scene& scene, const Pose& pose, const TextureTable* textures,
+                             const LayeredChoice& choice) {
   LayeredArrays out;
   Masks masks(textures, out.masks);
   std::map<std::pair<uint32_t, size_t>, uint32_t> rigid;  // mesh and primitive → mesh of ours
-  for (const PosedInstance& instance : pose.instances) {
+  for (uint32_t posed = 0; posed < pose.instances.size(); ++posed) {
+    const PosedInstance& instance = pose.instances[posed];
+    if (choice.without_mesh >= 0 && instance.mesh == static_cast<uint32_t>(choice.without_mesh)) continue;
     const std::vector<Primitive>& primitives = scene.meshes[instance.mesh].primitives;
     for (size_t p = 0; p < primitives.size(); ++p) {
       const Primitive& primitive = primitives[p];
       const Material& material = scene.materials[primitive.material];
-      if (!is_solid(material) || primitive.indices.empty()) continue;
+      const bool is_taken = choice.glowing ? material.alpha_mode != AlphaMode::blend : is_solid(material);
+      if (!is_taken || primitive.indices.empty()) continue;
       const bool deforms = instance.skin >= 0 || !instance.weights.empty();
       auto mesh = static_cast<uint32_t>(out.meshes.size());
       if (deforms) {
         out.meshes.push_back(
-            make_mesh(primitive, material, deformed_positions(primitive, instance, pose), masks.find(material)));
+            layered_mesh(primitive, material, deformed_positions(primitive, instance, pose), masks.find(material)));
       } else {
         const auto [place, is_new] = rigid.try_emplace({instance.mesh, p}, mesh);
         mesh = place->second;
-        if (is_new) out.meshes.push_back(make_mesh(primitive, material, primitive.positions, masks.find(material)));
+        if (is_new) out.meshes.push_back(layered_mesh(primitive, material, primitive.positions, masks.find(material)));
       }
       out.instances.push_back({.mesh = mesh,
                                .world_from_mesh = affine_rows(instance.world_from_mesh),
                                .host_index = static_cast<uint32_t>(out.materials.size())});
       out.materials.push_back(primitive.material);
+      out.posed.push_back(posed);
     }
   }
   return out;

@@ -23,6 +23,7 @@ struct LayeredArrays {
   std::vector<umbrage::LayeredInstance> instances;
   std::vector<umbrage::LayeredMask> masks;
   std::vector<uint32_t> materials;  ///< Of host_index: the scene's material of each instance.
+  std::vector<uint32_t> posed;      ///< Likewise: which of Pose::instances it is.
 
   umbrage::Result<umbrage::LayeredScene> create(const umbrage::DeviceDesc&) const;
 };
@@ -33,8 +34,15 @@ umbrage::Mat4 mat4(const glm::mat4&);
 /// Not blended, and not only glowing (skies, lamps): those neither cast nor reflect light.
 bool is_solid(const Material&);
 
+LayeredArrays::Mesh layered_mesh(const Primitive&, const Material&, std::span<const glm::vec3> positions,
+                                 umbrage::MaskId mask);
+
+struct LayeredChoice {
+  bool glowing = false;   ///< What only glows is taken, too.
+  int without_mesh = -1;  ///< Of the scene.
+};
 /// Skinned and morphed meshes are taken as they are posed. textures (may be null: masked materials become opaque) outlives
 /// what is made of it. What is not solid is left out.
-LayeredArrays layered_arrays(const Scene&, const Pose&, const TextureTable* textures);
+LayeredArrays layered_arrays(const Scene&, const Pose&, const TextureTable* textures, const LayeredChoice& = {});
 
 }  // namespace app
