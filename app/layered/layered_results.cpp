@@ -19,6 +19,21 @@ const LayeredRow* LayeredResults::find(const std::string& scene, const std::stri
   return found == rows.end() ? nullptr : &*found;
 }
 
+void LayeredResults::add(const LayeredRow& round) {
+  const auto known = std::find_if(rows.begin(), rows.end(), [&](const LayeredRow& row) { return row.is_same_measurement(round); });
+  if (known == rows.end()) {
+    rows.push_back(round);
+    return;
+  }
+  const double median = std::max(known->gpu_ms + known->gpu_ms_spread, round.gpu_ms + round.gpu_ms_spread);
+  known->gpu_ms = std::min(known->gpu_ms, round.gpu_ms);
+  known->gpu_ms_spread = median - known->gpu_ms;
+  known->cpu_us = std::min(known->cpu_us, round.cpu_us);
+  known->splits = round.splits;
+  known->rounds += round.rounds;
+  known->repeats += round.repeats;
+}
+
 Json to_json(const LayeredResults& results) {
   Json rows = Json::array();
   for (const LayeredRow& row : results.rows)
@@ -33,7 +48,9 @@ Json to_json(const LayeredResults& results) {
                     {"gpu_ms_per_map", row.gpu_ms / row.maps},
                     {"cpu_us", row.cpu_us},
                     {"cpu_us_per_map", row.cpu_us / row.maps},
-                    {"splits", row.splits}});
+                    {"splits", row.splits},
+                    {"rounds", row.rounds},
+                    {"repeats", row.repeats}});
   const LayeredCircumstances& in = results.circumstances;
   return {{"suite", "layered"},    {"device", {{"name", in.device}, {"driver", in.driver}, {"api", in.api}}},
           {"version", in.version}, {"date", results.date},
@@ -62,7 +79,9 @@ Result<LayeredResults> results_from_json(const nlohmann::json& document, const s
                               .gpu_ms = row.at("gpu_ms"),
                               .gpu_ms_spread = row.at("gpu_ms_spread"),
                               .cpu_us = row.at("cpu_us"),
-                              .splits = row.at("splits")});
+                              .splits = row.at("splits"),
+                              .rounds = row.at("rounds"),
+                              .repeats = row.at("repeats")});
     if (std::any_of(results.rows.begin(), results.rows.end(), [](const LayeredRow& row) { return row.maps == 0; }))
       return Error{ErrorCode::invalid_argument, file + ": a row has no maps"};
     return results;
@@ -73,11 +92,11 @@ Result<LayeredResults> results_from_json(const nlohmann::json& document, const s
 
 std::string to_csv(const LayeredResults& results) {
   std::string text =
-      "scene,case,figure,writer,side,maps,gpu_ms,gpu_ms_spread,gpu_ms_per_map,cpu_us,cpu_us_per_map,splits\n";
+      "scene,case,figure,writer,side,maps,gpu_ms,gpu_ms_spread,gpu_ms_per_map,cpu_us,cpu_us_per_map,splits,repeats\n";
   for (const LayeredRow& row : results.rows) {
     char numbers[160];
-    std::snprintf(numbers, sizeof numbers, "%u,%u,%.4f,%.4f,%.4f,%.2f,%.2f,%u\n", row.side, row.maps, row.gpu_ms,
-                  row.gpu_ms_spread, row.gpu_ms / row.maps, row.cpu_us, row.cpu_us / row.maps, row.splits);
+    std::snprintf(numbers, sizeof numbers, "%u,%u,%.4f,%.4f,%.4f,%.2f,%.2f,%u,%u\n", row.side, row.maps, row.gpu_ms,
+                  row.gpu_ms_spread, row.gpu_ms / row.maps, row.cpu_us, row.cpu_us / row.maps, row.splits, row.repeats);
     text += row.scene + ",\"" + row.test_case + "\"," + row.figure + "," + row.writer + "," + numbers;
   }
   return text;

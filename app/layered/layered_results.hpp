@@ -11,9 +11,10 @@ namespace app {
 struct LayeredRow {
   std::string scene, test_case, figure, writer;
   uint32_t side = 0, maps = 0;
-  double gpu_ms = 0, gpu_ms_spread = 0;  ///< Least; from the least to the median.
+  double gpu_ms = 0, gpu_ms_spread = 0;  ///< Least; from the least to the largest median of a round.
   double cpu_us = 0;                     ///< Least of prepare and record.
   uint32_t splits = 0;
+  uint32_t rounds = 0, repeats = 0;  ///< How often it was come back to, and runs in all.
 
   bool is_same_measurement(const LayeredRow& other) const {
     return scene == other.scene && test_case == other.test_case && writer == other.writer && side == other.side &&
@@ -33,6 +34,8 @@ struct LayeredResults {
   std::string date;  ///< Of the newest row.
   std::vector<LayeredRow> rows;
 
+  /// Adds a round: a new row, or what is known of it better.
+  void add(const LayeredRow&);
   const LayeredRow* find(const std::string& scene, const std::string& test_case, const std::string& writer,
                          uint32_t side, uint32_t maps) const;
 };
