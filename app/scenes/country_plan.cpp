@@ -160,7 +160,7 @@ void CountryPlanner::place_road_lamps() {
 }
 
 void CountryPlanner::place_bales() {
-  constexpr vec2 middles[] = {{-64, 116}, {140, -70}, {220, 190}}, half[] = {{33, 21}, {33, 29}, {43, 37}};
+  constexpr vec2 middles[] = {{-50, 95}, {140, -70}, {220, 190}}, half[] = {{28, 19}, {33, 29}, {43, 37}};
   for (size_t field = 0; field < std::size(middles); ++field) {
     for (int i = 0; i < 26; ++i) {
       const vec2 at = middles[field] + half[field] * vec2(random_.around(0.92f), random_.around(0.88f));

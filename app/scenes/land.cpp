@@ -46,7 +46,7 @@ struct Field {
   Mat crop;
 };
 constexpr Field fields[] = {
-    {{-64, 116}, {36, 24}, Mat::stubble}, {{-62, 170}, {34, 20}, Mat::wheat},  {{130, 88}, {34, 30}, Mat::plough},
+    {{-50, 95}, {32, 22}, Mat::stubble}, {{-62, 170}, {34, 20}, Mat::wheat},  {{130, 88}, {34, 30}, Mat::plough},
     {{140, -70}, {36, 32}, Mat::stubble}, {{118, 16}, {26, 16}, Mat::wheat},   {{205, 40}, {34, 36}, Mat::wheat},
     {{95, -135}, {44, 28}, Mat::wheat},   {{30, -128}, {14, 30}, Mat::plough}, {{205, -150}, {44, 30}, Mat::plough},
     {{220, 190}, {46, 40}, Mat::stubble}, {{30, 148}, {34, 16}, Mat::plough},  {{280, -10}, {32, 34}, Mat::plough}};
