@@ -140,7 +140,8 @@ ActiveLight sun_of(const Pose& pose) {
 uint32_t reach_m(const Scene& scene, const Pose& pose, const glm::vec3& direction) {
   Box casters;
   for_each_primitive(scene, pose, [&](const PosedPrimitive& posed) {
-    if (!scene.materials.empty() && !scene.materials[posed.primitive->material].casts_shadow) return;
+    const Material* material = scene.materials.empty() ? nullptr : &scene.materials[posed.primitive->material];
+    if (material && (!material->casts_shadow || material->alpha_mode == AlphaMode::blend)) return;
     for (const uint32_t index : posed.primitive->indices) casters.extend(posed.positions[index]);
   });
   if (casters.is_empty()) return kLeastReach;
