@@ -46,17 +46,23 @@ double us_per_map(const LayeredRow& row) { return row.cpu_us / row.maps; }
 Chart make_chart(const LayeredResults& results, const std::string& scene, const std::vector<std::string>& cases,
                  uint32_t side, std::string title, std::string y_label, const Metric& metric) {
   Chart chart{.title = std::move(title), .x_label = "maps", .y_label = std::move(y_label)};
-  for (const std::string& test_case : cases)
+  for (uint32_t dash = 0; dash < cases.size(); ++dash)
     for (const LayeredRow& row : results.rows) {
+      const std::string& test_case = cases[dash];
       if (row.scene != scene || row.test_case != test_case || row.side != side) continue;
       const std::string name =
           row.writer + (test_case == cases[0] ? "" : ", " + test_case.substr(test_case.find_first_of(' ') + 1));
       auto line =
           std::find_if(chart.lines.begin(), chart.lines.end(), [&](const ChartLine& l) { return l.name == name; });
-      if (line == chart.lines.end()) line = chart.lines.insert(line, {name, {}});
+      if (line == chart.lines.end()) line = chart.lines.insert(line, {name, {}, row.writer, dash});
       line->points.emplace_back(row.maps, metric(row));
     }
-  for (ChartLine& line : chart.lines) std::sort(line.points.begin(), line.points.end());
+  std::set<double> ticks;
+  for (ChartLine& line : chart.lines) {
+    std::sort(line.points.begin(), line.points.end());
+    for (const auto& [maps, value] : line.points) ticks.insert(maps);
+  }
+  chart.x_ticks.assign(ticks.begin(), ticks.end());
   return chart;
 }
 

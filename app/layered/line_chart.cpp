@@ -10,7 +10,8 @@
 namespace app {
 
 namespace {
-constexpr double kWidth = 460, kHeight = 300, kLeft = 62, kRight = 16, kTop = 34, kBottom = 44, kLegendRow = 18;
+constexpr double kWidth = 460, kHeight = 300, kLeft = 62, kRight = 16, kTop = 34, kBottom = 44, kLegendRow = 18,
+                 kTickDistance = 14;
 constexpr std::array<const char*, 10> kColors{"#1f5fbf", "#c8322b", "#e38a1d", "#2c8a3d", "#7a4fb0",
                                               "#1a9aa0", "#8a6d3b", "#555555", "#d0609f", "#9aa51d"};
 
@@ -45,36 +46,46 @@ struct Scale {
   }
 };
 
+/// Of a line and of its sample in the legend.
+std::string stroke(const std::string& color, uint32_t dash) {
+  constexpr std::array<const char*, 3> kDashes{"", " stroke-dasharray=\"7 3\"", " stroke-dasharray=\"2 3\""};
+  return " stroke=\"" + color + "\" stroke-width=\"1.8\"" + kDashes[std::min<size_t>(dash, kDashes.size() - 1)];
+}
+
 std::string chart_svg(const Chart& chart, double left, double top, const std::map<std::string, const char*>& colors) {
-  double largest_x = 0, largest_y = 0;
+  double largest_y = 0;
   for (const ChartLine& line : chart.lines)
-    for (const auto& [x, y] : line.points) largest_x = std::max(largest_x, x), largest_y = std::max(largest_y, y);
-  const Scale x_scale(largest_x), y_scale(largest_y);
+    for (const auto& [x, y] : line.points) largest_y = std::max(largest_y, y);
+  const Scale y_scale(largest_y);
+  const double most_x = chart.x_ticks.empty() ? 1 : chart.x_ticks.back();
   const double width = kWidth - kLeft - kRight, height = kHeight - kTop - kBottom;
-  const auto at_x = [&](double x) { return left + kLeft + width * x / x_scale.most; };
+  const auto at_x = [&](double x) { return left + kLeft + width * x / most_x; };
   const auto at_y = [&](double y) { return top + kTop + height * (1 - y / y_scale.most); };
   std::string out =
       text_at(left + kLeft + width / 2, top + 20, chart.title, "text-anchor=\"middle\" font-weight=\"bold\"");
   for (double y = 0; y <= y_scale.most * 1.0001; y += y_scale.step) {
-    out += "<line x1=\"" + number(at_x(0)) + "\" x2=\"" + number(at_x(x_scale.most)) + "\" y1=\"" + number(at_y(y)) +
+    out += "<line x1=\"" + number(at_x(0)) + "\" x2=\"" + number(at_x(most_x)) + "\" y1=\"" + number(at_y(y)) +
            "\" y2=\"" + number(at_y(y)) + "\" stroke=\"#ddd\"/>\n";
     out += text_at(at_x(0) - 6, at_y(y) + 4, number(y), "text-anchor=\"end\"");
   }
-  for (double x = 0; x <= x_scale.most * 1.0001; x += x_scale.step)
+  for (double last = 0; const double x : chart.x_ticks) {
+    if (last > 0 && at_x(x) - at_x(last) < kTickDistance) continue;
     out += text_at(at_x(x), at_y(0) + 16, number(x), "text-anchor=\"middle\"");
+    last = x;
+  }
   out += text_at(left + kLeft + width / 2, top + kHeight - 10, chart.x_label, "text-anchor=\"middle\"");
   const std::string turned = "text-anchor=\"middle\" transform=\"rotate(-90 " + number(left + 14) + " " +
                              number(top + kTop + height / 2) + ")\"";
   out += text_at(left + 14, top + kTop + height / 2, chart.y_label, turned.c_str());
   for (const ChartLine& line : chart.lines) {
-    const std::string color = colors.at(line.name);
+    const std::string color = colors.at(line.family);
     std::string points, dots;
     for (const auto& [x, y] : line.points) {
       points += number(at_x(x)) + "," + number(at_y(y)) + " ";
       dots +=
           "<circle cx=\"" + number(at_x(x)) + "\" cy=\"" + number(at_y(y)) + "\" r=\"2.4\" fill=\"" + color + "\"/>\n";
     }
-    out += "<polyline fill=\"none\" stroke=\"" + color + "\" stroke-width=\"1.8\" points=\"" + points + "\"/>\n" + dots;
+    out += "<polyline fill=\"none\"" + stroke(color, line.dash) + " points=\"" + points + "\"/>\n" + dots;
   }
   return out;
 }
@@ -82,14 +93,17 @@ std::string chart_svg(const Chart& chart, double left, double top, const std::ma
 
 std::string charts_svg(const std::vector<Chart>& charts) {
   std::map<std::string, const char*> colors;
-  std::vector<std::string> names;
+  std::vector<const ChartLine*> named;
   for (const Chart& chart : charts)
-    for (const ChartLine& line : chart.lines)
-      if (colors.try_emplace(line.name, kColors[colors.size() % kColors.size()]).second) names.push_back(line.name);
+    for (const ChartLine& line : chart.lines) {
+      colors.try_emplace(line.family, kColors[colors.size() % kColors.size()]);
+      const auto is_it = [&](const ChartLine* known) { return known->name == line.name; };
+      if (std::none_of(named.begin(), named.end(), is_it)) named.push_back(&line);
+    }
   const size_t columns = charts.size() > 1 ? 2 : 1, rows = (charts.size() + columns - 1) / columns;
   constexpr size_t kNamesARow = 4;
   const double width = kWidth * static_cast<double>(columns), plots = kHeight * static_cast<double>(rows);
-  const double height = plots + 10 + kLegendRow * static_cast<double>((names.size() + kNamesARow - 1) / kNamesARow);
+  const double height = plots + 10 + kLegendRow * static_cast<double>((named.size() + kNamesARow - 1) / kNamesARow);
   std::string out =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" + number(height) +
       "\" viewBox=\"0 0 " + number(width) + " " + number(height) +
@@ -97,12 +111,12 @@ std::string charts_svg(const std::vector<Chart>& charts) {
   for (size_t i = 0; i < charts.size(); ++i)
     out += chart_svg(charts[i], kWidth * static_cast<double>(i % columns), kHeight * static_cast<double>(i / columns),
                      colors);
-  for (size_t i = 0; i < names.size(); ++i) {
+  for (size_t i = 0; i < named.size(); ++i) {
     const double x = 20 + (width - 40) / kNamesARow * static_cast<double>(i % kNamesARow);
     const double y = plots + 8 + kLegendRow * static_cast<double>(i / kNamesARow);
-    out += "<rect x=\"" + number(x) + "\" y=\"" + number(y - 3) + "\" width=\"16\" height=\"4\" fill=\"" +
-           colors[names[i]] + "\"/>\n";
-    out += text_at(x + 22, y + 3, names[i], "");
+    out += "<path d=\"M" + number(x) + " " + number(y - 1) + "h20\"" + stroke(colors[named[i]->family], named[i]->dash) +
+           "/>\n";
+    out += text_at(x + 26, y + 3, named[i]->name, "");
   }
   return out + "</svg>\n";
 }
