@@ -55,19 +55,7 @@ void ShadePass::record_blended(PassContext& pass, const DrawList& draws, VkBuffe
 
   Targets& targets = pass.targets;
   const VolkDeviceTable& vk = pass.gpu.vk;
-  targets[Target::color].use(pass.gpu, pass.commands, ImageUse::color_target);
-  const VkRenderingAttachmentInfo color = attachment(targets[Target::color], ImageUse::color_target,
-                                                     VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
-  const VkRenderingAttachmentInfo depth =
-      attachment(targets[Target::depth], ImageUse::depth_read, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
-  VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-  rendering.renderArea = targets.area();
-  rendering.layerCount = 1;
-  rendering.colorAttachmentCount = 1;
-  rendering.pColorAttachments = &color;
-  rendering.pDepthAttachment = &depth;
-  vk.vkCmdBeginRendering(pass.commands, &rendering);
-  set_whole_viewport(pass.gpu, pass.commands, targets);
+  begin_drawing_over(pass.gpu, pass.commands, targets, Target::color);
   push_constants(pass.gpu, pass.commands, pass.layout, pass.push);
   vk.vkCmdBindIndexBuffer(pass.commands, indices, 0, VK_INDEX_TYPE_UINT32);
   vk.vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, blended_.get());

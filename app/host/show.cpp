@@ -220,19 +220,7 @@ void ShowPass::begin_lines(const PassContext& pass, const gpu::ShowPush& push, V
   memory_barrier(pass.gpu, pass.commands, compute_write,
                  {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
                   VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
-  targets[Target::picture].use(pass.gpu, pass.commands, ImageUse::color_target);
-  const VkRenderingAttachmentInfo color = attachment(targets[Target::picture], ImageUse::color_target,
-                                                     VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
-  const VkRenderingAttachmentInfo depth =
-      attachment(targets[Target::depth], ImageUse::depth_read, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
-  VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-  rendering.renderArea = targets.area();
-  rendering.layerCount = 1;
-  rendering.colorAttachmentCount = 1;
-  rendering.pColorAttachments = &color;
-  rendering.pDepthAttachment = &depth;
-  vk.vkCmdBeginRendering(pass.commands, &rendering);
-  set_whole_viewport(pass.gpu, pass.commands, targets);
+  begin_drawing_over(pass.gpu, pass.commands, targets, Target::picture);
   push_constants(pass.gpu, pass.commands, pass.layout, push);
   vk.vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
 }

@@ -115,4 +115,20 @@ void set_whole_viewport(const GpuContext& context, VkCommandBuffer commands, con
   context.vk.vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
+void begin_drawing_over(const GpuContext& context, VkCommandBuffer commands, Targets& targets, Target target) {
+  targets[target].use(context, commands, ImageUse::color_target);
+  const VkRenderingAttachmentInfo color =
+      attachment(targets[target], ImageUse::color_target, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE);
+  const VkRenderingAttachmentInfo depth =
+      attachment(targets[Target::depth], ImageUse::depth_read, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
+  VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+  rendering.renderArea = targets.area();
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachments = &color;
+  rendering.pDepthAttachment = &depth;
+  context.vk.vkCmdBeginRendering(commands, &rendering);
+  set_whole_viewport(context, commands, targets);
+}
+
 }  // namespace app

@@ -38,5 +38,7 @@ inline constexpr std::array gbuffer_targets{Target::geometric_normal, Target::no
 VkRenderingAttachmentInfo attachment(const DeviceImage&, ImageUse, VkAttachmentLoadOp, VkAttachmentStoreOp);
 /// Viewport and scissor of the whole picture, no culling.
 void set_whole_viewport(const GpuContext&, VkCommandBuffer, const Targets&);
+/// Begins rendering onto what a target holds, tested against the depth buffer, which stays as it is.
+void begin_drawing_over(const GpuContext&, VkCommandBuffer, Targets&, Target);
 
 }  // namespace app

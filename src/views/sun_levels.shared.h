@@ -89,7 +89,7 @@ UMB_FN int round_down(int x, int unit) { return (x >= 0 ? x : x - unit + 1) / un
 /// most: a power of two ≥ 4.
 UMB_FN SunWindow sun_window(SunRect rect, uint level, uint most) {
   uint whole = 1u << level;
-  float half_texels = float(whole / 2u);
+  float half_texels = 0.5f * float(whole);
   if (sun_rect_is_empty(rect)) rect.lo = rect.hi = vec2(0.0f);
   // A little farther than taps, for the rounding of coordinates far from the origin.
   vec2 far = max(abs(rect.lo), abs(rect.hi)) * half_texels;
