@@ -2,11 +2,11 @@
 #define VOLK_IMPLEMENTATION
 #include "gpu.hpp"
 
-#include <dlfcn.h>
-
 #include <array>
 #include <cstring>
 #include <utility>
+
+#include "validation_layers.hpp"
 
 namespace umbrage::test {
 
@@ -117,8 +117,7 @@ Gpu::Gpu() {
   owner_ = std::make_unique<HeadlessDevice>(take(HeadlessDevice::create(
       {.get_instance_proc_addr = vkGetInstanceProcAddr, .validate = true, .message = collect, .message_user = this,
        .wanted = {.vertex_layer = true, .sparse_residency = true, .shader_residency = true}})));
-  // Stays loaded, so that the leak checker knows the layers' own leaks by name (tests/lsan.supp).
-  dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+  keep_validation_layers();
   desc_ = owner_->desc();
   queue_ = owner_->queue();
   volkLoadInstance(desc_.instance);

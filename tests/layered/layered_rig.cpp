@@ -7,9 +7,14 @@
 #include <cstring>
 #include <filesystem>
 
+#include "validation_layers.hpp"
+
 namespace umbrage::test {
 
-void LayeredTest::SetUpTestSuite() { gpu_ = take(app::GpuContext::create("", true)); }
+void LayeredTest::SetUpTestSuite() {
+  gpu_ = take(app::GpuContext::create("", true));
+  keep_validation_layers();
+}
 void LayeredTest::TearDownTestSuite() { gpu_.reset(); }
 void LayeredTest::TearDown() { EXPECT_EQ(gpu().validation_messages(), 0u) << "see standard error"; }
 
