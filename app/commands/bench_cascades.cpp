@@ -135,6 +135,12 @@ ActiveLight sun_of(const Pose& pose) {
           .intensity = 20};
 }
 
+/// An overview from high above leaves the near cascades empty.
+std::string eye_level_camera(const Pose& pose) {
+  const auto is_street = [](const PosedCamera& camera) { return camera.name == "street"; };
+  return std::any_of(pose.cameras.begin(), pose.cameras.end(), is_street) ? "street" : "";
+}
+
 /// Metres that the depth range has to reach towards the sun for every caster to be in it: no ray along the light stays
 /// longer within the casters' box.
 uint32_t reach_m(const Scene& scene, const Pose& pose, const glm::vec3& direction) {
@@ -172,7 +178,7 @@ class CascadeStage {
     CascadeStage stage;
     stage.scene_ = std::make_unique<Scene>(std::move(*loaded));
     const Pose first = pose(*stage.scene_, 0);
-    auto camera = CameraSource::create({}, first, scene_bounds(*stage.scene_, first),
+    auto camera = CameraSource::create({.name_or_index = eye_level_camera(first)}, first, scene_bounds(*stage.scene_, first),
                                        static_cast<float>(width) / static_cast<float>(height));
     if (!camera) return camera.error();
     stage.start_ = camera->at(first, 0);
