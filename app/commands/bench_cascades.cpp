@@ -178,8 +178,9 @@ class CascadeStage {
     CascadeStage stage;
     stage.scene_ = std::make_unique<Scene>(std::move(*loaded));
     const Pose first = pose(*stage.scene_, 0);
-    auto camera = CameraSource::create({.name_or_index = eye_level_camera(first)}, first, scene_bounds(*stage.scene_, first),
-                                       static_cast<float>(width) / static_cast<float>(height));
+    auto camera =
+        CameraSource::create({.name_or_index = eye_level_camera(first)}, first, scene_bounds(*stage.scene_, first),
+                             static_cast<float>(width) / static_cast<float>(height));
     if (!camera) return camera.error();
     stage.start_ = camera->at(first, 0);
     if (movers == Movers::some) add_movers(*stage.scene_, stage.start_.world_from_camera);
