@@ -2,6 +2,7 @@
 #include "scenes/textures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -132,6 +133,23 @@ Surface make_surface(const char* name, uint32_t size, float metres, TexelOf texe
 
 vec3 grey(float value) { return vec3(value); }
 float shade_of(const Cell& cell) { return unit_float(mix_bits(cell.id)); }
+
+/// Air and clouds; v from the zenith (0) to the horizon (1), towards: 1 where the sun is, 0 opposite of it.
+vec3 evening_air(vec2 uv, float v, float towards) {
+  const vec3 zenith{0.20f, 0.31f, 0.52f}, middle{0.45f, 0.56f, 0.70f}, low{0.86f, 0.70f, 0.58f},
+      gold{1.0f, 0.74f, 0.42f};
+  vec3 color = glm::mix(zenith, middle, ramp(0.05f, 0.80f, v));
+  color = glm::mix(color, low, ramp(0.45f, 1.0f, v) * (0.35f + 0.55f * towards));
+  color = glm::mix(color, gold, ramp(0.55f, 1.0f, v) * towards * towards * towards);
+  // Long thin clouds, lit from below towards the sun.
+  const float band = noise(uv, 9, 40, 83) * 0.5f + noise(uv, 21, 96, 89) * 0.3f + noise(uv, 60, 200, 97) * 0.2f;
+  const float cloud = ramp(0.50f, 0.76f, band) * ramp(0.30f, 0.62f, v) * (1 - ramp(0.97f, 1.0f, v));
+  color = glm::mix(color, glm::mix(vec3(0.50f, 0.48f, 0.56f), vec3(1.0f, 0.70f, 0.50f), towards), 0.65f * cloud);
+  const vec2 from_sun = (uv - vec2(0.5f, 0.70f)) * vec2(4.0f, 1.0f);
+  const float halo = glm::dot(from_sun, from_sun);
+  color = glm::mix(color, vec3(1.0f, 0.80f, 0.52f), 0.75f * std::exp(-40.0f * halo));
+  return color + vec3(0.9f, 0.75f, 0.5f) * std::exp(-1100.0f * halo);
+}
 
 }  // namespace
 
@@ -276,33 +294,19 @@ Image make_lake_glow() {
 
 Image make_evening_sky() {
   constexpr uint32_t width = 2048, height = 512;
+  constexpr float horizon = 0.88f, brightest = 0.56f;  // Room above, for the sun.
   Image image = blank("evening sky", width, height);
-  const vec3 zenith{0.20f, 0.31f, 0.52f}, middle{0.45f, 0.56f, 0.70f}, low{0.86f, 0.70f, 0.58f},
-      gold{1.0f, 0.74f, 0.42f};
-  constexpr float horizon = 0.88f, sun_v = 0.70f, brightest = 0.56f;  // Room above, for the sun.
-  for (uint32_t y = 0; y < height; ++y) {
-    for (uint32_t x = 0; x < width; ++x) {
-      const vec2 uv = (vec2(x, y) + 0.5f) / vec2(width, height);
-      const float towards = 0.5f - 0.5f * std::cos(6.2831853f * uv.x), v = std::min(uv.y / horizon, 1.0f);
-      vec3 color = glm::mix(zenith, middle, ramp(0.05f, 0.80f, v));
-      color = glm::mix(color, low, ramp(0.45f, 1.0f, v) * (0.35f + 0.55f * towards));
-      color = glm::mix(color, gold, ramp(0.55f, 1.0f, v) * towards * towards * towards);
-      // Long thin clouds, lit from below towards the sun.
-      const float band = noise(uv, 9, 40, 83) * 0.5f + noise(uv, 21, 96, 89) * 0.3f + noise(uv, 60, 200, 97) * 0.2f;
-      const float cloud = ramp(0.50f, 0.76f, band) * ramp(0.30f, 0.62f, v) * (1 - ramp(0.97f, 1.0f, v));
-      color = glm::mix(color, glm::mix(vec3(0.50f, 0.48f, 0.56f), vec3(1.0f, 0.70f, 0.50f), towards), 0.65f * cloud);
-      const vec2 from_sun = (uv - vec2(0.5f, sun_v)) * vec2(4.0f, 1.0f);
-      const float halo = glm::dot(from_sun, from_sun);
-      color = glm::mix(color, vec3(1.0f, 0.80f, 0.52f), 0.75f * std::exp(-40.0f * halo));
-      color += vec3(0.9f, 0.75f, 0.5f) * std::exp(-1100.0f * halo);
-      // Ridges in the haze, the nearer one lower and darker.
-      for (uint32_t ridge = 0; ridge < 2; ++ridge) {
-        const float near = static_cast<float>(ridge);
-        const float crest = fractal(vec2(uv.x, 0.37f + 0.2f * near), ridge ? 10 : 6, 6, 211 + 7 * ridge);
-        const float top = horizon - 0.075f * crest + 0.012f * near - 0.012f;
-        const vec3 haze = glm::mix(vec3(0.42f, 0.47f, 0.60f), vec3(0.84f, 0.60f, 0.46f), towards * towards);
-        color = glm::mix(color, haze * (0.86f - 0.24f * near), ramp(0.0f, 0.0022f, uv.y - top));
-      }
+  for (uint32_t x = 0; x < width; ++x) {
+    const float u = (static_cast<float>(x) + 0.5f) / width, towards = 0.5f - 0.5f * std::cos(6.2831853f * u);
+    const vec3 haze = glm::mix(vec3(0.42f, 0.47f, 0.60f), vec3(0.84f, 0.60f, 0.46f), towards * towards);
+    // Crests of two ridges in the haze, the nearer one lower and darker.
+    const std::array crests{horizon - 0.012f - 0.075f * fractal({u, 0.37f}, 6, 6, 211),
+                            horizon - 0.075f * fractal({u, 0.57f}, 10, 6, 218)};
+    for (uint32_t y = 0; y < height; ++y) {
+      const vec2 uv{u, (static_cast<float>(y) + 0.5f) / height};
+      vec3 color = evening_air(uv, std::min(uv.y / horizon, 1.0f), towards);
+      color = glm::mix(color, haze * 0.86f, ramp(0.0f, 0.0022f, uv.y - crests[0]));
+      color = glm::mix(color, haze * 0.62f, ramp(0.0f, 0.0022f, uv.y - crests[1]));
       const float dither = (lattice(x, y, 101) - 0.5f) / 255.0f;
       store(image, x, y, color * brightest + dither);
     }
