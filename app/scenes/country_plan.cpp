@@ -19,6 +19,25 @@ using glm::vec3;
 
 constexpr float half_turn = 3.1415927f;
 
+/// A point on a road's middle line.
+struct Milestone {
+  vec2 at, left;  ///< Of the way out of the town, unit length.
+};
+
+/// Every `spacing` metres along a road, from `first` to `last`.
+std::vector<Milestone> milestones(const Road& road, float first, float spacing, float last) {
+  std::vector<Milestone> result;
+  float gone = 0, next = first;
+  for (size_t i = 0; i + 1 < road.size(); ++i) {
+    const float length = glm::distance(road[i], road[i + 1]);
+    const vec2 along = (road[i + 1] - road[i]) / length;
+    for (; next < std::min(gone + length, last); next += spacing)
+      result.push_back({road[i] + along * (next - gone), {along.y, -along.x}});
+    gone += length;
+  }
+  return result;
+}
+
 class CountryPlanner {
  public:
   explicit CountryPlanner(const Terrain& town) : town_(town) {}
@@ -97,8 +116,8 @@ void CountryPlanner::place_shore() {
       vec3{-9, 2.4f, 1.65f}, {-16, -3.4f, -1.4f}, {-21, 2.6f, 1.5f}, {-37, -14, 0.6f}, {-60, 17, 2.3f}};
   for (vec3 boat : boats) plan_.standing.push_back({Model::boat, {foot.x + boat.x, 0, foot.y + boat.y}, boat.z, 1});
   taken_.push_back({foot, 9});
-  for (int i = 0; i < 900; ++i) {
-    const vec2 at{random_.range(-310, -60), random_.range(-230, 90)};
+  for (int i = 0; i < 1000; ++i) {
+    const vec2 at{random_.range(lake_low.x, lake_high.x), random_.range(lake_low.y, lake_high.y)};
     const float height = land_height(at);
     if (height > 0.15f || height < -0.55f || !is_free(at, 5) || std::abs(at.y - 9) < 14) continue;
     plan_.standing.push_back(
@@ -138,32 +157,23 @@ void CountryPlanner::place_farms() {
 }
 
 void CountryPlanner::place_road_lamps() {
-  constexpr float spacing = 21, reach[] = {330, 190, 100};
+  constexpr float spacing = 21, last[] = {330, 190, 100};
   for (size_t r = 0; r < country_roads().size(); ++r) {
-    const Road& road = country_roads()[r];
-    float gone = 0, next = 12;
     int count = 0;
-    for (size_t i = 0; i + 1 < road.size() && next < reach[r]; ++i) {
-      const float length = glm::distance(road[i], road[i + 1]);
-      const vec2 along = (road[i + 1] - road[i]) / length, left{along.y, -along.x};
-      for (; next < gone + length; next += spacing) {
-        const float side = count++ % 2 ? 1.0f : -1.0f;
-        const vec2 at = road[i] + along * (next - gone) + left * side * (road_half_m + 0.5f), facing = left * -side;
-        if (in_town(at, -1)) continue;
-        plan_.road_lamps.push_back(
-            {Model::street_lamp, {at.x, land_height(at), at.y}, std::atan2(facing.x, facing.y), 1});
-        taken_.push_back({at, 1.5f});
-      }
-      gone += length;
+    for (const Milestone& stone : milestones(country_roads()[r], 12, spacing, last[r])) {
+      const vec2 side = stone.left * (count++ % 2 ? 1.0f : -1.0f), at = stone.at + side * (road_half_m + 0.5f);
+      if (in_town(at, -1)) continue;
+      plan_.road_lamps.push_back({Model::street_lamp, {at.x, land_height(at), at.y}, std::atan2(-side.x, -side.y), 1});
+      taken_.push_back({at, 1.5f});
     }
   }
 }
 
 void CountryPlanner::place_bales() {
-  constexpr vec2 middles[] = {{-50, 95}, {140, -70}, {220, 190}}, half[] = {{28, 19}, {33, 29}, {43, 37}};
-  for (size_t field = 0; field < std::size(middles); ++field) {
+  for (const Field& field : fields()) {
+    if (field.crop != Mat::stubble) continue;
     for (int i = 0; i < 26; ++i) {
-      const vec2 at = middles[field] + half[field] * vec2(random_.around(0.92f), random_.around(0.88f));
+      const vec2 at = field.middle + field.half * vec2(random_.around(0.85f), random_.around(0.8f));
       if (road_distance(at) < 2 || field_distance(at) > -2 || !is_free(at, 4.5f)) continue;
       taken_.push_back({at, 2});
       put(Model::hay_bale, at, random_.around(half_turn));
@@ -184,18 +194,10 @@ void CountryPlanner::place_orchard() {
 
 void CountryPlanner::place_avenues() {
   for (size_t r : {size_t{1}, size_t{2}}) {
-    const Road& road = country_roads()[r];
-    float next = 4;
-    float gone = 0;
-    for (size_t i = 0; i + 1 < road.size() && next < 260; ++i) {
-      const float length = glm::distance(road[i], road[i + 1]);
-      const vec2 along = (road[i + 1] - road[i]) / length, left{along.y, -along.x};
-      for (; next < gone + length; next += 15.0f)
-        for (float side : {-1.0f, 1.0f})
-          plant(r == 1 ? Model::poplar : Model::beech,
-                road[i] + along * (next - gone) + left * side * (road_half_m + 3.2f), 1.2f,
-                random_.range(0.85f, 1.15f));
-      gone += length;
+    for (const Milestone& stone : milestones(country_roads()[r], 4, 15, 260)) {
+      for (float side : {-1.0f, 1.0f})
+        plant(r == 1 ? Model::poplar : Model::beech, stone.at + stone.left * side * (road_half_m + 3.2f), 1.2f,
+              random_.range(0.85f, 1.15f));
     }
   }
 }

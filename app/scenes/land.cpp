@@ -40,13 +40,8 @@ constexpr Oval woods[] = {{{-60, -340}, {290, 120}},  {{235, -245}, {110, 70}}, 
                           {{300, 120}, {70, 75}},     {{-165, 205}, {75, 42}},  {{360, -60}, {75, 110}},
                           {{-420, -150}, {120, 240}}, {{-40, 330}, {260, 60}},  {{-70, -175}, {46, 40}}};
 
-/// Fields with their crop; borders follow the land.
-struct Field {
-  vec2 middle, half;
-  Mat crop;
-};
-constexpr Field fields[] = {
-    {{-50, 95}, {32, 22}, Mat::stubble}, {{-62, 170}, {34, 20}, Mat::wheat},  {{130, 88}, {34, 30}, Mat::plough},
+constexpr Field all_fields[] = {
+    {{-50, 95}, {32, 22}, Mat::stubble},  {{-62, 170}, {34, 20}, Mat::wheat},  {{130, 88}, {34, 30}, Mat::plough},
     {{140, -70}, {36, 32}, Mat::stubble}, {{118, 16}, {26, 16}, Mat::wheat},   {{205, 40}, {34, 36}, Mat::wheat},
     {{95, -135}, {44, 28}, Mat::wheat},   {{30, -128}, {14, 30}, Mat::plough}, {{205, -150}, {44, 30}, Mat::plough},
     {{220, 190}, {46, 40}, Mat::stubble}, {{30, 148}, {34, 16}, Mat::plough},  {{280, -10}, {32, 34}, Mat::plough}};
@@ -54,7 +49,7 @@ constexpr Field fields[] = {
 float crop_distance(vec2 p, Mat crop) {
   const vec2 bent = p + vec2(5 * std::sin(0.023f * p.y + 0.7f), 5 * std::sin(0.021f * p.x - 0.4f));
   float nearest = 1e9f;
-  for (const Field& field : fields)
+  for (const Field& field : all_fields)
     if (field.crop == crop) nearest = std::min(nearest, box_distance(bent, field.middle, field.half - 3.0f) - 3);
   return nearest;
 }
@@ -82,8 +77,8 @@ float land_height(vec2 p) {
   const float out = glm::length(p), wild = smooth_ramp(75, 190, out);
   float land = 2.4f + 0.034f * std::clamp(p.x + 70, 0.0f, 190.0f) - 0.012f * std::clamp(p.y, -70.0f, 90.0f);
   land += 0.3f * std::sin(0.043f * p.x + 0.6f) * std::cos(0.037f * p.y);
-  land += 40 * bump(p, {95, 262}, {120, 92});                                                 // The view's.
-  land += 27 * bump(p, {222, -92}, {82, 62});                                                 // The windmill's.
+  land += 40 * bump(p, {95, 262}, {120, 92});                                                 // South.
+  land += 27 * bump(p, {222, -92}, {82, 62});                                                 // Under the mill.
   land += 46 * smooth_ramp(125, 330, -p.y + 0.12f * p.x) * (0.8f + 0.2f * noise(p / 90.0f));  // North.
   land += 34 * smooth_ramp(290, 430, -p.x) * (0.8f + 0.2f * noise(p / 70.0f));                // Beyond the lake.
   land += smooth_ramp(350, 640, out) * (36 + 17 * noise(p / 170.0f) + 7 * noise(p / 63.0f));
@@ -103,6 +98,8 @@ float field_distance(vec2 p) {
   for (Mat crop : {Mat::wheat, Mat::stubble, Mat::plough}) nearest = std::min(nearest, crop_distance(p, crop));
   return nearest;
 }
+
+std::span<const Field> fields() { return all_fields; }
 
 const std::vector<Road>& country_roads() {
   static const std::vector<Road> roads = [] {
@@ -179,11 +176,10 @@ void add_land(MeshBuilder& builder, const Terrain& town, Detail detail) {
 
 void add_lake(MeshBuilder& builder, Detail detail) {
   const int steps = detail == Detail::low ? 6 : 20;
-  constexpr vec2 low{-320, -250}, high{-62, 100};
-  const vec2 step = (high - low) / static_cast<float>(steps);
+  const vec2 step = (lake_high - lake_low) / static_cast<float>(steps);
   for (int z = 0; z < steps; ++z) {
     for (int x = 0; x < steps; ++x) {
-      const vec2 a = low + step * vec2(x, z), b = a + step;
+      const vec2 a = lake_low + step * vec2(x, z), b = a + step;
       builder.quad(Mat::lake, {a.x, 0, b.y}, {b.x, 0, b.y}, {b.x, 0, a.y}, {a.x, 0, a.y});
     }
   }

@@ -24,6 +24,7 @@ using glm::vec3;
 constexpr float street_lamp_scale = 1.7f;
 /// Where the sun stands: west of north, and over the horizon.
 constexpr float sun_azimuth = 1.0f, sun_height = 0.20f;
+constexpr SkyDome sky_dome{.radius_m = 1400, .bottom_m = -150, .rise_m = 1000};
 
 /// Over the town and its lake from the south; along the main street with the sun behind; over the lake towards the sun.
 constexpr View views[] = {
@@ -46,8 +47,9 @@ void set_evening(Scene& scene) {
   lake.emissive = vec3(0.36f);
   lake.emissive_texture.image = static_cast<int>(scene.images.size());
   lake.emissive_texture.wrap_u = lake.emissive_texture.wrap_v = Wrap::clamp;
-  // Over the whole lake, from the west.
-  lake.emissive_texture.uv_transform = glm::mat3x2(1 / 260.0f, 0, 0, 1 / 360.0f, 320 / 260.0f, 250 / 360.0f);
+  // Once over the whole lake, from the west.
+  const glm::vec2 scale = 1.0f / (lake_high - lake_low), offset = -lake_low * scale;
+  lake.emissive_texture.uv_transform = glm::mat3x2(scale.x, 0, 0, scale.y, offset.x, offset.y);
   scene.images.push_back(make_lake_glow());
 }
 
@@ -94,11 +96,9 @@ Scene make_landscape(Detail detail) {
   const CountryPlan country = plan_country(terrain);
   scenery.add_single("land", [&](MeshBuilder& builder) { add_land(builder, terrain, detail); });
   scenery.add_single("lake", [&](MeshBuilder& builder) { add_lake(builder, detail); });
-  scenery
-      .add_single(
-          "sky",
-          [&](MeshBuilder& builder) { add_sky(builder, {.radius_m = 1400, .bottom_m = -150, .rise_m = 1000}, detail); })
-      .rotation = glm::angleAxis(sun_azimuth + 0.07f, vec3(0, 1, 0));
+  Node& sky = scenery.add_single("sky", [&](MeshBuilder& builder) { add_sky(builder, sky_dome, detail); });
+  // Seen from the overview, which is not under the dome's middle, the painted sun is where the light comes from.
+  sky.rotation = glm::angleAxis(sun_azimuth + 0.07f, vec3(0, 1, 0));
   for (const auto* standing : {&town.standing, &country.standing})
     for (const Standing& thing : *standing) scenery.stand(thing);
 
