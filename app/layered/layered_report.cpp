@@ -1,5 +1,6 @@
 // The chapter's figures and claims from measured rows, whichever way they come out.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -14,7 +15,10 @@ namespace {
 
 constexpr const char* kTraditional = "traditional";
 constexpr const char* kLayered = "geometry_invocations";  // what the chapter means by layered
-constexpr const char* kLoop = "geometry_loop";            // and its form for older hardware
+constexpr const char* kLoop = "geometry_loop";            // its form for older hardware
+constexpr const char* kVertex = "vertex_layer";           // and what came after
+constexpr std::array kLayeredWays{kLayered, kLoop, kVertex};
+constexpr std::array kToldMaps{1u, 2u, 3u, 4u, 6u, 12u, 32u};  // in percentages; all are in the figures
 
 std::string printed(const char* format, double value) {
   char text[64];
@@ -76,52 +80,69 @@ std::optional<double> ratio(const LayeredResults& results, const std::string& sc
   return layered->gpu_ms / traditional->gpu_ms;
 }
 
+/// What is found of each layered way that was measured; of the chapter's own without its name.
+std::string each_way(const std::function<std::string(const char*)>& find) {
+  std::string text;
+  for (const char* writer : kLayeredWays)
+    if (const std::string found = find(writer); !found.empty())
+      text += (text.empty() ? "" : "; ") + (writer == kLayered ? std::string() : std::string(writer) + " ") + found;
+  return text.empty() ? "not measured" : text;
+}
+
 std::string change_text(double value) { return printed("%+.0f %%", 100 * (value - 1)); }
 
-/// "+10 % (2), -30 % (32)", and the same for the loop where it was measured.
+/// "+10 % (2), -30 % (32)", and the same for the other layered ways where they were measured.
 std::string change_range(const LayeredResults& results, const std::string& scene, const std::string& layered_case,
                          const std::string& traditional_case, uint32_t side, uint32_t from_maps) {
   const auto listed = [&](const char* writer) {
     std::string text;
-    for (const uint32_t maps : values_of(results, &LayeredRow::maps, layered_case))
+    for (const uint32_t maps : kToldMaps)
       if (maps >= from_maps)
         if (const auto found = ratio(results, scene, layered_case, traditional_case, side, maps, writer))
           text += (text.empty() ? "" : ", ") + change_text(*found) + " (" + std::to_string(maps) + ")";
     return text;
   };
-  const std::string invocations = listed(kLayered), loop = listed(kLoop);
-  if (invocations.empty()) return "not measured";
-  return loop.empty() ? invocations : invocations + "; in a loop " + loop;
+  return each_way([&](const char* writer) { return listed(writer); });
 }
 
 std::string break_even(const LayeredResults& results, const std::string& scene, uint32_t side) {
-  for (const uint32_t maps : values_of(results, &LayeredRow::maps, "four instances"))
-    if (const auto found = ratio(results, scene, "four instances", "four instances", side, maps); found && *found <= 1)
-      return "from " + std::to_string(maps) + " maps on";
-  return "never, up to " + std::to_string(*values_of(results, &LayeredRow::maps, "four instances").rbegin()) + " maps";
+  return each_way([&](const char* writer) -> std::string {
+    uint32_t most = 0;
+    for (const uint32_t maps : values_of(results, &LayeredRow::maps, "four instances")) {
+      const auto found = ratio(results, scene, "four instances", "four instances", side, maps, writer);
+      if (found && *found <= 1) return "from " + std::to_string(maps) + " maps on";
+      if (found) most = maps;
+    }
+    return most == 0 ? "" : "never, up to " + std::to_string(most) + " maps";
+  });
 }
 
 /// Maps from which on another map costs within a tenth of what it costs at best.
 std::string knee(const LayeredResults& results, const std::string& scene, uint32_t side) {
-  double best = 0;
   const auto counts = values_of(results, &LayeredRow::maps, "simple, discard");
-  const auto per_map = [&](uint32_t maps) {
-    const LayeredRow* row = results.find(scene, "simple, discard", kLayered, side, maps);
-    return row ? ms_per_map(*row) : 0;
-  };
-  for (const uint32_t maps : counts)
-    if (const double now = per_map(maps); now > 0 && (best == 0 || now < best)) best = now;
-  for (const uint32_t maps : counts)
-    if (const double now = per_map(maps); now > 0 && now <= 1.1 * best) return "at " + std::to_string(maps) + " maps";
-  return "not measured";
+  return each_way([&](const char* writer) -> std::string {
+    const auto per_map = [&](uint32_t maps) {
+      const LayeredRow* row = results.find(scene, "simple, discard", writer, side, maps);
+      return row ? ms_per_map(*row) : 0;
+    };
+    double best = 0;
+    for (const uint32_t maps : counts)
+      if (const double now = per_map(maps); now > 0 && (best == 0 || now < best)) best = now;
+    for (const uint32_t maps : counts)
+      if (const double now = per_map(maps); now > 0 && now <= 1.1 * best)
+        return "at " + std::to_string(maps) + (maps == 1 ? " map" : " maps");
+    return "";
+  });
 }
 
 std::string size_influence(const LayeredResults& results, const std::string& scene) {
-  std::string text;
-  for (const uint32_t side : values_of(results, &LayeredRow::side, "simple"))
-    if (const auto found = ratio(results, scene, "simple", "simple", side, 32))
-      text += (text.empty() ? "" : ", ") + std::to_string(side) + "²: " + change_text(*found);
-  return text.empty() ? "not measured" : text;
+  return each_way([&](const char* writer) {
+    std::string text;
+    for (const uint32_t side : values_of(results, &LayeredRow::side, "simple"))
+      if (const auto found = ratio(results, scene, "simple", "simple", side, 32, writer))
+        text += (text.empty() ? "" : ", ") + std::to_string(side) + "²: " + change_text(*found);
+    return text;
+  });
 }
 
 std::string cpu_growth(const LayeredResults& results, const std::string& scene, uint32_t side) {
@@ -241,9 +262,8 @@ std::string layered_report_html(const LayeredResults& results) {
       escaped(in.version) + ", " + escaped(results.date) +
       (in.is_quick ? "; quick run: few repeats and map counts" : "") +
       ". Depth is D16. GPU times are the least of the repeats between timestamps, clears included; processor "
-      "times are the least of preparing and recording. Percentages are the geometry shader with invocations, and with "
-      "a loop, "
-      "against one pass per map; map counts in brackets.</p>\n"
+      "times are the least of preparing and recording. Percentages are the geometry shader with invocations, and where "
+      "they are named other writers, against one pass per map; map counts in brackets.</p>\n"
       "<h2>Claims of the chapter</h2>\n<table><tr><th>Claim</th><th>Measured here</th></tr>\n";
   for (const LayeredClaim& claim : layered_claims(results))
     html += "<tr><td>" + escaped(claim.claim) + "</td><td>" + escaped(claim.found) + "</td></tr>\n";
