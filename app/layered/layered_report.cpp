@@ -1,6 +1,7 @@
 // The chapter's figures and claims from measured rows, whichever way they come out.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -54,8 +55,9 @@ Chart make_chart(const LayeredResults& results, const std::string& scene, const 
     for (const LayeredRow& row : results.rows) {
       const std::string& test_case = cases[dash];
       if (row.scene != scene || row.test_case != test_case || row.side != side) continue;
-      const std::string name =
-          row.writer + (test_case == cases[0] ? "" : ", " + test_case.substr(test_case.find_first_of(' ') + 1));
+      const size_t comma = test_case.rfind(", ");
+      const std::string variant = comma == std::string::npos ? test_case : test_case.substr(comma + 2);
+      const std::string name = row.writer + (dash == 0 ? "" : ", " + variant);
       auto line =
           std::find_if(chart.lines.begin(), chart.lines.end(), [&](const ChartLine& l) { return l.name == name; });
       if (line == chart.lines.end()) line = chart.lines.insert(line, {name, {}, row.writer, dash});
@@ -89,7 +91,7 @@ std::string each_way(const std::function<std::string(const char*)>& find) {
   return text.empty() ? "not measured" : text;
 }
 
-std::string change_text(double value) { return printed("%+.0f %%", 100 * (value - 1)); }
+std::string change_text(double value) { return printed("%+.0f %%", std::round(100 * (value - 1)) + 0.0); }  // no -0 %
 
 /// "+10 % (2), -30 % (32)", and the same for the other layered ways where they were measured.
 std::string change_range(const LayeredResults& results, const std::string& scene, const std::string& layered_case,

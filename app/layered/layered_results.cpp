@@ -2,6 +2,7 @@
 #include "layered/layered_results.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace app {
@@ -10,6 +11,12 @@ using Json = nlohmann::ordered_json;
 using umbrage::Error;
 using umbrage::ErrorCode;
 using umbrage::Result;
+
+namespace {
+/// Clocks are no finer than that.
+double in_tenths_of_us(double ms) { return std::round(ms * 1e4) / 1e4; }
+double in_ns(double us) { return std::round(us * 1e3) / 1e3; }
+}  // namespace
 
 const LayeredRow* LayeredResults::find(const std::string& scene, const std::string& test_case,
                                        const std::string& writer, uint32_t side, uint32_t maps) const {
@@ -43,11 +50,11 @@ Json to_json(const LayeredResults& results) {
                     {"figure", row.figure},
                     {"side", row.side},
                     {"maps", row.maps},
-                    {"gpu_ms", row.gpu_ms},
-                    {"gpu_ms_spread", row.gpu_ms_spread},
-                    {"gpu_ms_per_map", row.gpu_ms / row.maps},
-                    {"cpu_us", row.cpu_us},
-                    {"cpu_us_per_map", row.cpu_us / row.maps},
+                    {"gpu_ms", in_tenths_of_us(row.gpu_ms)},
+                    {"gpu_ms_spread", in_tenths_of_us(row.gpu_ms_spread)},
+                    {"gpu_ms_per_map", in_tenths_of_us(row.gpu_ms / row.maps)},
+                    {"cpu_us", in_ns(row.cpu_us)},
+                    {"cpu_us_per_map", in_ns(row.cpu_us / row.maps)},
                     {"splits", row.splits},
                     {"rounds", row.rounds},
                     {"repeats", row.repeats}});
