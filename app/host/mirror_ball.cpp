@@ -1,6 +1,8 @@
 // A sphere of quadrilaterals by latitude and longitude.
 #include "host/mirror_ball.hpp"
 
+#include <cmath>
+
 #include <glm/gtc/constants.hpp>
 
 namespace app {

@@ -2,6 +2,7 @@
 #include "host/reflection_cube.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,6 +1,7 @@
 // Uploads streams, indices, materials.
 #include "host/scene_buffers.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "host/shaders/host.shared.h"

@@ -2,6 +2,8 @@
 #include "import/gltf_meshes.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <optional>
 
 #include "import/gltf_fault.hpp"

@@ -1,5 +1,6 @@
 // The church: nave, buttresses, tower with an open belfry, clock and spire.
 #include <array>
+#include <cmath>
 
 #include "scenes/house.hpp"
 

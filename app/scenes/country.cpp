@@ -1,6 +1,7 @@
 // Models of the country: a windmill, bales, a jetty with its boats, reeds.
 #include "scenes/country.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 // Houses from the parts of facade.hpp and roof.hpp.
 #include "scenes/house.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

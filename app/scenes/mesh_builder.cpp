@@ -2,6 +2,7 @@
 // neighbours in one plane match and every part carries its grain along its own y.
 #include "scenes/mesh_builder.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

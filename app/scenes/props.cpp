@@ -1,6 +1,7 @@
 // Furniture of streets and yards.
 #include "scenes/props.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

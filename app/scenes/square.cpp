@@ -1,6 +1,8 @@
 // What stands on the market square: stalls with their goods, and the fountain.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "scenes/props.hpp"
 

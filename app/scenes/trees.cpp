@@ -1,4 +1,5 @@
 // Trees with every leaf as geometry: limbs fork a few times, leaves crowd around the ends of the twigs.
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -45,10 +45,11 @@ Result<Clusters> Clusters::create(const gpu::PipelineFactory& factory) {
 Result<void> Clusters::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t tile_count, uint32_t pair_capacity,
                                uint32_t light_slots, std::vector<gpu::Buffer>& retired) {
   const uint32_t clusters = std::max(tile_count * shared::ClustersPerTile, 4096u);
+  const VkDeviceSize tiles = tile_count;
   struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
-  Need needs[] = {{words_, tile_count * shared::SliceWords * sizeof(shared::ClusterWord), "cluster words", {}},
-                  {found_, tile_count * shared::MaxSlices * sizeof(shared::FoundCluster), "found clusters", {}},
-                  {tile_counts_, tile_count * sizeof(uint32_t), "tile counts", {}},
+  Need needs[] = {{words_, tiles * shared::SliceWords * sizeof(shared::ClusterWord), "cluster words", {}},
+                  {found_, tiles * shared::MaxSlices * sizeof(shared::FoundCluster), "found clusters", {}},
+                  {tile_counts_, tiles * sizeof(uint32_t), "tile counts", {}},
                   {cells_, clusters * sizeof(uint32_t), "cluster cells", {}},
                   {boxes_, clusters * sizeof(shared::Box), "cluster boxes", {}},
                   {cones_, clusters * sizeof(glm::vec4), "cluster cones", {}},

@@ -1,5 +1,7 @@
 // Clusters and their light lists as the device made them, read back.
 #pragma once
+#include <cmath>
+
 #include "system_rig.hpp"
 
 namespace umbrage::test {

@@ -1,6 +1,7 @@
 // How long the writers of the page pool take, side by side in one run. Not a test: run it with
 // --gtest_also_run_disabled_tests --gtest_filter=*MeasuresPageWriters* on an idle machine.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 

@@ -1,6 +1,7 @@
 #include "page_rig.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace umbrage::test {

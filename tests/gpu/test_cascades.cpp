@@ -1,4 +1,5 @@
 // Cascades in every mode against a redraw of everything, texel by texel, whatever moves; and against the plain rasteriser.
+#include <cmath>
 #include <random>
 
 #include "cascade_rig.hpp"

@@ -2,6 +2,7 @@
 // umbrage.glsl makes of them; and what happens when the lists outgrow their room.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "cluster_reader.hpp"
 #include "reference/light_lists.hpp"

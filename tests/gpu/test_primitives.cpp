@@ -1,5 +1,6 @@
 // Rounding, prefix sums and the 32-way tree against plain CPU versions: every integer and every box exactly.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <random>

@@ -1,6 +1,7 @@
 // Casters as the device holds them: the triangles of their batches, and world boxes that follow every move and removal.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "system_rig.hpp"

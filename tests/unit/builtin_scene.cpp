@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>

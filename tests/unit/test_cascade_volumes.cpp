@@ -3,6 +3,8 @@
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "cascades/cascade_planner.hpp"

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include "tests/unit/box_clipper.hpp"
 #include "tests/unit/cube_boxes.hpp"

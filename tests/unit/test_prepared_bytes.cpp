@@ -1,6 +1,7 @@
 // open_prepared: damaged bytes are refused, or are in range when the damage was sealed with a right checksum.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>

@@ -2,6 +2,7 @@
 // against receivers that a box does shadow.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "culling/receivers.shared.h"

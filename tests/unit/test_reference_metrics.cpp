@@ -1,9 +1,11 @@
 // compare's metrics on pictures that are made by hand, and the distance transform against brute force.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "commands/compare_metrics.hpp"
 #include "commands/error_shapes.hpp"

@@ -1,6 +1,7 @@
 // The math of shadow views: cube faces, taps across edges, spot and ortho frames, depth keys, bias pieces, solid angles.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
