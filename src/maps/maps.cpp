@@ -69,13 +69,13 @@ Result<void> Maps::reserve(const gpu::Device& device, gpu::Memory& memory, const
       {maps_, sizes.maps * sizeof(shared::MapRecord), "maps"},
       {light_maps_, lights * sizeof(shared::LightMaps), "maps of lights"},
       {requests_, lights * sizeof(shared::LightRequest), "requested resolutions"},
-      {level_bounds_, std::max(sizes.suns, 1u) * shared::SunViews * 4 * sizeof(uint32_t), "bounds of levels"},
+      {level_bounds_, 4 * sizeof(uint32_t) * shared::SunViews * std::max(sizes.suns, 1u), "bounds of levels"},
       {demand_, lights * (shared::MaxShift + 1) * sizeof(uint32_t), "demand of lights"},
       {pair_requests_, sizes.pairs * sizeof(uint32_t), "resolutions of pairs"},
       {pair_maps_, sizes.pairs * sizeof(uint32_t), "maps of pairs"},
       {page_bits_, sizes.words * sizeof(uint32_t), "page bits"},
       {page_first_, sizes.words * sizeof(uint32_t), "page places"},
-      {projection_, sizes.receiver_views * shared::ProjectionSide * sizeof(uint32_t), "projection maps"},
+      {projection_, sizeof(uint32_t) * shared::ProjectionSide * sizes.receiver_views, "projection maps"},
       {receiver_depth_, sizes.receiver_views * cells * sizeof(uint32_t), "receiver depths"}};
   for (const auto& entry : all)
     if (auto ok = gpu::grow(entry.target, device, memory, entry.bytes, entry.name, retired); !ok) return ok;
