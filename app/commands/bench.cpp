@@ -18,8 +18,6 @@
 
 namespace app {
 
-using umbrage::Error;
-using umbrage::ErrorCode;
 using umbrage::Result;
 
 namespace {
