@@ -146,7 +146,8 @@ embree::Scene Blockers::mesh_scene(const app::Mesh& mesh, const std::vector<Surf
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   for (uint32_t i = 0; i < mesh.primitives.size(); ++i) {
     const app::Material& material = *surfaces[i].material;
-    if (!material.casts_shadow || material.alpha_mode == app::AlphaMode::blend || mesh.primitives[i].indices.size() < 3) continue;
+    if (!material.casts_shadow || material.alpha_mode == app::AlphaMode::blend || mesh.primitives[i].indices.size() < 3)
+      continue;
     if (const embree::Geometry geometry = make_triangles(device_.get(), *positions[i], surfaces[i])) {
       rtcAttachGeometryByID(scene.get(), geometry.get(), i);
     }

@@ -11,7 +11,11 @@ namespace reference {
 /// A square of a view's texels, row by row. Reversed depth: 1 at the near plane, 0 where nothing is.
 struct DepthWindow {
   DepthWindow(uint32_t view_resolution, glm::uvec2 first_texel, uint32_t window_side)
-      : resolution(view_resolution), first(first_texel), side(window_side), depth(size_t(side) * side), covered(size_t(side) * side) {}
+      : resolution(view_resolution),
+        first(first_texel),
+        side(window_side),
+        depth(size_t(side) * side),
+        covered(size_t(side) * side) {}
   uint32_t resolution;  ///< Of the view.
   glm::uvec2 first;
   uint32_t side;

@@ -35,7 +35,8 @@ Ray shadow_ray(const Light& light, glm::vec3 start) {
 /// picture of one corner of a large scene the scene's diagonal would lift grazing rays over what stands in their way.
 float offset_of(const SurfaceImage& image, const Light& light, float diagonal) {
   float largest = 0;
-  for (const float coordinate : image.positions) largest = std::max(largest, std::isnan(coordinate) ? 0 : std::abs(coordinate));
+  for (const float coordinate : image.positions)
+    largest = std::max(largest, std::isnan(coordinate) ? 0 : std::abs(coordinate));
   if (light.kind != app::LightKind::directional)
     for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(light.position[axis]));
   return start_offset * (largest > 0 ? std::min(largest, diagonal) : diagonal);
@@ -101,16 +102,16 @@ class EmbreeTracer final : public RayTracer {
   }
 
  private:
-  void trace_row(const Light& light, const SurfaceImage& image, float offset, uint32_t y, std::span<const uint8_t> evaluated,
-                 std::span<uint8_t> result) const {
+  void trace_row(const Light& light, const SurfaceImage& image, float offset, uint32_t y,
+                 std::span<const uint8_t> evaluated, std::span<uint8_t> result) const {
     ShadowPacket packet(blockers_.scene(), result);
     for (uint32_t x = 0; x < image.width; ++x) {
       const size_t pixel = size_t(y) * image.width + x;
       const float* position = &image.positions[3 * pixel];
       if (evaluated[pixel] == not_evaluated || std::isnan(position[0])) continue;
       const float* normal = &image.normals[3 * pixel];
-      const glm::vec3 start = glm::vec3(position[0], position[1], position[2]) +
-                              glm::vec3(normal[0], normal[1], normal[2]) * offset;
+      const glm::vec3 start =
+          glm::vec3(position[0], position[1], position[2]) + glm::vec3(normal[0], normal[1], normal[2]) * offset;
       const Ray ray = shadow_ray(light, start);
       if (ray.far > 0) {
         packet.add(ray, pixel);

@@ -37,15 +37,16 @@ struct FramePlan {
 
 /// The device's record of a frame, as it lies in one buffer.
 struct FrameBlock {
-  shared::FrameRecord record;   // of the first camera
+  shared::FrameRecord record;  // of the first camera
   shared::TreeShape caster_shape, light_shape;
   std::array<shared::MapImage, shared::MaxMapImages> images;
   std::array<shared::CameraRecord, shared::MaxCameras> cameras;
-  std::array<shared::FrameRecord, shared::MaxCameras - 1> other_records;   // of the other cameras
+  std::array<shared::FrameRecord, shared::MaxCameras - 1> other_records;  // of the other cameras
 };
 
 struct Frame {
-  static Result<std::unique_ptr<Frame>> create(const gpu::Device&, gpu::Memory&, const gpu::PipelineFactory&, const StaticSettings&);
+  static Result<std::unique_ptr<Frame>> create(const gpu::Device&, gpu::Memory&, const gpu::PipelineFactory&,
+                                               const StaticSettings&);
 
   /// 0…1: needs no depth buffer.
   void record_scene(gpu::Recorder&, const FramePlan&, gpu::Uploader&, gpu::RetireQueue&);
@@ -57,7 +58,9 @@ struct Frame {
   void record_statistics(gpu::Recorder&, const gpu::Buffer& target);
 
   /// The images that maps lie in: none, those of the physical pool, or sparse ones.
-  const store::MapImages& map_images(Store kind) const { return kind == Store::hardware_sparse ? sparse.images() : images; }
+  const store::MapImages& map_images(Store kind) const {
+    return kind == Store::hardware_sparse ? sparse.images() : images;
+  }
   /// What the casters of the page pool are culled and drawn with.
   culling::MapCulling::Inputs cull_inputs(const FramePlan&) const;
   raster::PageWriterInputs page_inputs(const FramePlan&) const;
@@ -67,7 +70,9 @@ struct Frame {
     return block.address() + offsetof(FrameBlock, cameras) + camera * sizeof(shared::CameraRecord);
   }
   VkDeviceAddress frame_record(uint32_t camera) const {
-    return camera == 0 ? block.address() : block.address() + offsetof(FrameBlock, other_records) + (camera - 1) * sizeof(shared::FrameRecord);
+    return camera == 0
+               ? block.address()
+               : block.address() + offsetof(FrameBlock, other_records) + (camera - 1) * sizeof(shared::FrameRecord);
   }
   VkDeviceAddress image_table() const { return block.address() + offsetof(FrameBlock, images); }
   VkDeviceAddress light_shape() const { return block.address() + offsetof(FrameBlock, light_shape); }
@@ -87,7 +92,7 @@ struct Frame {
   store::MapImages images;
   // Store::hardware_sparse
   store::SparseImages sparse;
-  raster::LayerWriter layer_writer;   // of both
+  raster::LayerWriter layer_writer;  // of both
   // Store::fixed_cubes
   store::FixedCubes store;
   culling::CasterCulling culling;
@@ -105,9 +110,10 @@ struct Frame {
   maps::Maps::Backing backing(Store) const;
   Result<void> create_sparse(const gpu::Device&, const gpu::PipelineFactory&, SparseTexels);
   void record_fixed_cubes(gpu::Recorder&, const FramePlan&);
-  std::vector<const gpu::Buffer*> published_;   // kept, so that recording allocates nothing
+  std::vector<const gpu::Buffer*> published_;  // kept, so that recording allocates nothing
   std::vector<const gpu::Image*> published_images_;
-  Frame(const gpu::Device& device, gpu::Memory& memory, const StaticSettings& settings) : scene(device, memory, settings) {}
+  Frame(const gpu::Device& device, gpu::Memory& memory, const StaticSettings& settings)
+      : scene(device, memory, settings) {}
 };
 
 }  // namespace umbrage

@@ -53,7 +53,9 @@ Result<ShadowSystem> ShadowSystem::create(const DeviceDesc& desc, const StaticSe
   return ShadowSystem(std::move(state));
 }
 
-Result<MaskId> ShadowSystem::add_mask(VkImageView view, VkSampler sampler) { return state_->frame->scene.add_mask(view, sampler); }
+Result<MaskId> ShadowSystem::add_mask(VkImageView view, VkSampler sampler) {
+  return state_->frame->scene.add_mask(view, sampler);
+}
 Result<MeshId> ShadowSystem::add_mesh(const MeshDesc& desc) { return state_->frame->scene.add_mesh(desc); }
 Result<InstanceId> ShadowSystem::add_instance(const InstanceDesc& desc) {
   state_->edited = true;
@@ -66,7 +68,9 @@ Result<LightId> ShadowSystem::add_light(const LightDesc& desc) {
 Result<void> ShadowSystem::set_transforms(std::span<const InstanceId> ids, std::span<const Affine> transforms) {
   return state_->frame->scene.set_transforms(ids, transforms);
 }
-Result<void> ShadowSystem::mark_deformed(std::span<const InstanceId> ids) { return state_->frame->scene.mark_deformed(ids); }
+Result<void> ShadowSystem::mark_deformed(std::span<const InstanceId> ids) {
+  return state_->frame->scene.mark_deformed(ids);
+}
 Result<void> ShadowSystem::set_lights(std::span<const LightId> ids, std::span<const LightDesc> descs) {
   return state_->frame->scene.set_lights(ids, descs);
 }
@@ -81,7 +85,9 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
   {
     Stopwatch watch(cpu_ms);
     if (auto valid = validate(Settings{.fixed = s.settings, .frame = desc.settings}); !valid) return valid.error();
-    if (desc.serial <= s.last_serial) return invalid("FrameDesc::serial must grow: it is " + std::to_string(desc.serial) + " after " + std::to_string(s.last_serial));
+    if (desc.serial <= s.last_serial)
+      return invalid("FrameDesc::serial must grow: it is " + std::to_string(desc.serial) + " after " +
+                     std::to_string(s.last_serial));
     if (!std::isfinite(desc.time_s)) return invalid("FrameDesc::time_s must be finite");
     if (desc.completed_serial >= desc.serial) return invalid("FrameDesc::completed_serial must be less than serial");
     const auto made = camera_records(desc.cameras);
@@ -105,8 +111,12 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.current->serial = s.last_serial = desc.serial;
     s.next_slot = (s.next_slot + 1) % static_cast<uint32_t>(s.slots.size());
     if (s.edited) s.edit_serial = desc.serial, s.edited = false, s.caster_pairs_known = false;
-    s.plan = {.settings = desc.settings, .store = s.settings.store, .cascades = !s.cascade_lights.empty(), .caster_rounds = s.plan_rounds(),
-              .consumer_stages = desc.consumer_stages, .serial = desc.serial};
+    s.plan = {.settings = desc.settings,
+              .store = s.settings.store,
+              .cascades = !s.cascade_lights.empty(),
+              .caster_rounds = s.plan_rounds(),
+              .consumer_stages = desc.consumer_stages,
+              .serial = desc.serial};
     s.plan_cameras(desc.cameras, cameras);
     FrameBlock block{};
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
@@ -115,7 +125,8 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     std::memset(s.current->statistics.mapped(), 0, sizeof(shared::TapCounts));
     if (s.current->page_requests) std::memset(s.current->page_requests.mapped(), 0, sizeof(shared::SparseRequests));
     s.pages_bound = false;
-    s.current->uploader.copy(s.frame->block, 0, &block, offsetof(FrameBlock, other_records) + (cameras.size() - 1) * sizeof(shared::FrameRecord));
+    s.current->uploader.copy(s.frame->block, 0, &block,
+                             offsetof(FrameBlock, other_records) + (cameras.size() - 1) * sizeof(shared::FrameRecord));
     shared::FrameCounters counters{};
     counters.pair_limit = s.plan.caster_rounds * s.caster_pairs_per_round();
     s.current->uploader.copy(s.frame->counters, 0, &counters, sizeof counters);
@@ -165,7 +176,8 @@ Result<void> ShadowSystem::bind_pages(const PageBinding& binding) {
   if (!binding.queue) return invalid("PageBinding::queue is VK_NULL_HANDLE");
   Stopwatch watch(s.current->known.bind_ms);
   if (binding.requests) {
-    const VkResult result = s.device->vk().vkWaitForFences(s.device->handle(), 1, &binding.requests, VK_TRUE, UINT64_MAX);
+    const VkResult result =
+        s.device->vk().vkWaitForFences(s.device->handle(), 1, &binding.requests, VK_TRUE, UINT64_MAX);
     if (result != VK_SUCCESS) return gpu::vulkan_error(result, "vkWaitForFences", "PageBinding::requests");
   }
   const auto bound = s.frame->sparse.bind(binding.queue, s.current->page_requests, binding.bound);
@@ -181,7 +193,8 @@ ShaderInterface ShadowSystem::shader_interface(CameraId id) const {
   const auto ids = std::span(state_->plan.camera_ids).first(state_->plan.camera_count);
   const auto found = std::find_if(ids.begin(), ids.end(), [&](CameraId other) { return other.value == id.value; });
   const auto camera = static_cast<uint32_t>(found == ids.end() ? 0 : found - ids.begin());
-  return {.frame = state_->frame->frame_record(camera), .set = state_->current ? state_->current->host_set : VK_NULL_HANDLE};
+  return {.frame = state_->frame->frame_record(camera),
+          .set = state_->current ? state_->current->host_set : VK_NULL_HANDLE};
 }
 
 uint32_t ShadowSystem::shader_store() const { return state_->shader_store(); }

@@ -28,7 +28,8 @@ Result<NeededTriangles> NeededTriangles::create(ShadowSystem& system) {
 Result<void> NeededTriangles::record(VkCommandBuffer commands, VkDeviceAddress texels, VkDeviceAddress count) {
   auto& s = SystemAccess::state(state_->system);
   if (!s.current) return Error{ErrorCode::invalid_argument, "NeededTriangles::record: no frame has been recorded"};
-  gpu::Recorder recorder(*s.device, *s.pipelines, commands, nullptr, s.current->frame_sets[0], s.mask_set, s.hazard_log);
+  gpu::Recorder recorder(*s.device, *s.pipelines, commands, nullptr, s.current->frame_sets[0], s.mask_set,
+                         s.hazard_log);
   Frame& frame = *s.frame;
   for (uint32_t round = 0; round < s.plan.caster_rounds; ++round) {
     frame.map_culling.record_round(recorder, frame.cull_inputs(s.plan), round);

@@ -17,15 +17,17 @@ ShadowSystem::State::~State() {
 
 Result<void> ShadowSystem::State::check_device() const {
   if (settings.store == Store::physical_pool && !device->capabilities().vertex_layer)
-    return Error{ErrorCode::unsupported, "store=physical_pool needs shaderOutputLayer (Capabilities::vertex_layer), which " + device->name() +
-                                             " lacks or the host has not enabled"};
+    return Error{ErrorCode::unsupported,
+                 "store=physical_pool needs shaderOutputLayer (Capabilities::vertex_layer), which " + device->name() +
+                     " lacks or the host has not enabled"};
   return {};
 }
 
 Result<void> ShadowSystem::State::create_host_layout() {
-  const std::array<VkDescriptorSetLayoutBinding, 3> images{{{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr},
-                                                           {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr},
-                                                           {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr}}};
+  const std::array<VkDescriptorSetLayoutBinding, 3> images{
+      {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_ALL, nullptr},
+       {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr},
+       {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, shared::MaxMapImages, VK_SHADER_STAGE_ALL, nullptr}}};
   constexpr VkDescriptorBindingFlags kPartly = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
   const std::array<VkDescriptorBindingFlags, 3> partly{0, kPartly, kPartly};
   VkDescriptorSetLayoutBindingFlagsCreateInfo flags{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
@@ -34,7 +36,8 @@ Result<void> ShadowSystem::State::create_host_layout() {
   VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags};
   info.bindingCount = static_cast<uint32_t>(images.size());
   info.pBindings = images.data();
-  VkResult result = device->vk().vkCreateDescriptorSetLayout(device->handle(), &info, device->callbacks(), &host_layout);
+  VkResult result =
+      device->vk().vkCreateDescriptorSetLayout(device->handle(), &info, device->callbacks(), &host_layout);
   if (result != VK_SUCCESS) return gpu::vulkan_error(result, "vkCreateDescriptorSetLayout", "host");
   VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
@@ -46,9 +49,10 @@ Result<void> ShadowSystem::State::create_host_layout() {
 }
 
 Result<void> ShadowSystem::State::create_sets(uint32_t frames_in_flight) {
-  const std::array<VkDescriptorPoolSize, 3> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (1 + 2 * shared::MaxCameras + 2 * shared::MaxMapImages) * frames_in_flight},
-                                                   {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::MaxMasks},
-                                                   {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, std::max(storage_images(), 1u) * shared::MaxCameras * frames_in_flight}}};
+  const std::array<VkDescriptorPoolSize, 3> sizes{
+      {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, (1 + 2 * shared::MaxCameras + 2 * shared::MaxMapImages) * frames_in_flight},
+       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::MaxMasks},
+       {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, std::max(storage_images(), 1u) * shared::MaxCameras * frames_in_flight}}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT;
   info.maxSets = (shared::MaxCameras + 1) * frames_in_flight + 1;
@@ -76,9 +80,10 @@ Result<void> ShadowSystem::State::create_sets(uint32_t frames_in_flight) {
 Result<FrameSlot*> ShadowSystem::State::free_slot(const FrameDesc& desc) {
   FrameSlot& slot = slots[next_slot];
   if (slot.serial > desc.completed_serial)
-    return Error{ErrorCode::invalid_argument,
-                 "FrameDesc::completed_serial is " + std::to_string(desc.completed_serial) + ", but with frames_in_flight = " +
-                     std::to_string(slots.size()) + " frame " + std::to_string(slot.serial) + " must have completed"};
+    return Error{ErrorCode::invalid_argument, "FrameDesc::completed_serial is " +
+                                                  std::to_string(desc.completed_serial) +
+                                                  ", but with frames_in_flight = " + std::to_string(slots.size()) +
+                                                  " frame " + std::to_string(slot.serial) + " must have completed"};
   return &slot;
 }
 
@@ -87,7 +92,8 @@ void ShadowSystem::State::collect(uint64_t completed_serial) {
   frame->scene.collect(completed_serial);
   const FrameSlot* newest = nullptr;
   for (const FrameSlot& slot : slots)
-    if (slot.serial > statistics.serial && slot.serial <= completed_serial && (!newest || slot.serial > newest->serial)) newest = &slot;
+    if (slot.serial > statistics.serial && slot.serial <= completed_serial && (!newest || slot.serial > newest->serial))
+      newest = &slot;
   if (newest) read_statistics(*newest);
 }
 
@@ -113,20 +119,25 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
     uint32_t word;
     std::memcpy(&word, words + light * sizeof word, sizeof word);
     if (word >> shared::LightShiftAt)
-      degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::coarser,
-                          uint64_t(counters.pool_units_asked - std::min(counters.pool_units, counters.pool_units_asked)) * shared::PoolUnit * texel_bytes()});
+      degraded.push_back(
+          {LightId{frame->scene.lights().id_at(light)}, Degradation::coarser,
+           uint64_t(counters.pool_units_asked - std::min(counters.pool_units, counters.pool_units_asked)) *
+               shared::PoolUnit * texel_bytes()});
     if (word & shared::LightLacksCasters)
       degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::casters_missing,
-                          (counters.caster_pairs - counters.pair_limit) * (sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand))});
+                          (counters.caster_pairs - counters.pair_limit) *
+                              (sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand))});
   }
-  statistics.overflows += uint64_t(counters.clusters_found > counters.clusters) + uint64_t(counters.all_lights_used != 0) +
+  statistics.overflows += uint64_t(counters.clusters_found > counters.clusters) +
+                          uint64_t(counters.all_lights_used != 0) +
                           uint64_t(counters.caster_pairs > counters.pair_limit);
   statistics.lights_degraded = static_cast<uint32_t>(degraded.size());
   read_cascade_statistics(slot);
 
   if (counters.pairs_found > pair_capacity) pair_capacity = counters.pairs_found + counters.pairs_found / 4;
   if (slot.serial >= edit_serial) {
-    caster_pairs_seen = caster_pairs_known ? std::max<uint64_t>(caster_pairs_seen, counters.caster_pairs) : counters.caster_pairs;
+    caster_pairs_seen =
+        caster_pairs_known ? std::max<uint64_t>(caster_pairs_seen, counters.caster_pairs) : counters.caster_pairs;
     caster_pairs_known = true;
   }
 }
@@ -142,7 +153,8 @@ void ShadowSystem::State::read_map_statistics(const shared::FrameReport& report)
   statistics.unbacked_taps = report.taps.unbacked;
   statistics.unmarked_taps = report.taps.unmarked;
   const auto grown = [](uint32_t have, uint32_t found) { return found > have ? found + found / 4 : have; };
-  statistics.overflows += uint64_t(counters.maps_found > map_sizes.maps) + uint64_t(counters.page_words_found > map_sizes.words) +
+  statistics.overflows += uint64_t(counters.maps_found > map_sizes.maps) +
+                          uint64_t(counters.page_words_found > map_sizes.words) +
                           uint64_t(counters.receiver_views_found > map_sizes.receiver_views);
   large_triangles = std::min(grown(large_triangles, counters.large_triangles), kMaxLargeTriangles);
   map_sizes.maps = grown(map_sizes.maps, counters.maps_found);
@@ -153,9 +165,12 @@ void ShadowSystem::State::read_map_statistics(const shared::FrameReport& report)
 void ShadowSystem::State::lay_out_images(const FrameSettings& frame_settings, std::vector<uint32_t>& changed) {
   const bool is_sparse = settings.store == Store::hardware_sparse;
   const gpu::Limits& limits = device->limits();
-  store::ImageDemand demand{.finest = frame_settings.max_resolution, .texels = budget_bytes() / texel_bytes(), .most_side = limits.max_image_side,
+  store::ImageDemand demand{.finest = frame_settings.max_resolution,
+                            .texels = budget_bytes() / texel_bytes(),
+                            .most_side = limits.max_image_side,
                             .most_layers = limits.max_image_layers};
-  const store::LeastRoom room = store::least_room_of_images(demand, is_sparse ? store::kOrdinaryMaps : store::kLeastMaps, texel_bytes());
+  const store::LeastRoom room =
+      store::least_room_of_images(demand, is_sparse ? store::kOrdinaryMaps : store::kLeastMaps, texel_bytes());
   views = store::number_views(frame->scene.lights(), room, 1, changed, without_map).views;
   // In powers of two, so that a light more or less makes no new images.
   demand.views = static_cast<uint32_t>(std::min<uint64_t>(std::bit_ceil(views), room.views));
@@ -178,18 +193,20 @@ uint64_t ShadowSystem::State::texel_bytes() const {
 }
 
 Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settings) {
-  const std::array<uint32_t, 3> wanted{frame_settings.min_resolution, frame_settings.max_resolution, most_cascade_lights(frame_settings)};
+  const std::array<uint32_t, 3> wanted{frame_settings.min_resolution, frame_settings.max_resolution,
+                                       most_cascade_lights(frame_settings)};
   if (!frame->scene.lights_edited() && wanted == laid_out_for) return {};
   choose_cascade_lights(frame_settings);
   std::vector<uint32_t> changed;
   if (settings.store == Store::page_pool) {
-    const store::ViewCount numbered =
-        store::number_views(frame->scene.lights(), store::least_room_of_pool(budget_bytes()), store::kSunViews, changed, without_map);
+    const store::ViewCount numbered = store::number_views(
+        frame->scene.lights(), store::least_room_of_pool(budget_bytes()), store::kSunViews, changed, without_map);
     views = numbered.views, map_sizes.suns = numbered.suns;
   } else if (has_virtual_maps()) {
     lay_out_images(frame_settings, changed);
   } else {
-    layout = store::lay_out(frame->scene.lights(), budget_bytes(), device->limits().max_image_side, frame_settings, changed, without_map);
+    layout = store::lay_out(frame->scene.lights(), budget_bytes(), device->limits().max_image_side, frame_settings,
+                            changed, without_map);
     views = layout.views;
   }
   for (const uint32_t slot : changed) frame->scene.light_changed(slot);
@@ -200,7 +217,8 @@ Result<void> ShadowSystem::State::lay_out_maps(const FrameSettings& frame_settin
 Result<void> ShadowSystem::State::reserve(FrameSlot& slot, uint32_t tile_count, const FrameDesc& desc) {
   scene::GpuScene& scene = frame->scene;
   const uint32_t light_slots = scene.light_slots();
-  if (auto ok = frame->clusters.reserve(*device, *memory, tile_count, pair_capacity, light_slots, outgrown); !ok) return ok.error();
+  if (auto ok = frame->clusters.reserve(*device, *memory, tile_count, pair_capacity, light_slots, outgrown); !ok)
+    return ok.error();
   if (auto ok = frame->views.reserve(*device, *memory, views, outgrown); !ok) return ok.error();
   // The include names the atlas, so that there is one in any case.
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
@@ -260,9 +278,12 @@ Result<void> ShadowSystem::State::reserve_virtual_maps(const FrameDesc& desc) {
   const uint32_t sun_maps = map_sizes.suns * kExpectedSunMaps;
   map_sizes.maps = std::max({map_sizes.maps, 3 * light_slots + sun_maps, 64u});
   map_sizes.receiver_views = std::max({map_sizes.receiver_views, 3 * views, 384u});
-  map_sizes.words = std::max({map_sizes.words, 8 * views + sun_maps * shared::page_words_of(shared::pages_of(1u << shared::MaxLevel)), 4096u});
+  map_sizes.words = std::max(
+      {map_sizes.words, 8 * views + sun_maps * shared::page_words_of(shared::pages_of(1u << shared::MaxLevel)), 4096u});
   map_sizes.receiver_grid = desc.settings.receiver_grid;
-  const auto grid_bytes = [&] { return uint64_t(map_sizes.receiver_views) * map_sizes.receiver_grid * map_sizes.receiver_grid * sizeof(uint32_t); };
+  const auto grid_bytes = [&] {
+    return uint64_t(map_sizes.receiver_views) * map_sizes.receiver_grid * map_sizes.receiver_grid * sizeof(uint32_t);
+  };
   while (map_sizes.receiver_grid > 1 && grid_bytes() > kMaxGridBytes) map_sizes.receiver_grid /= 2;
   if (auto ok = frame->maps.reserve(*device, *memory, map_sizes, outgrown); !ok) return ok;
   const uint32_t most = settings.store == Store::page_pool ? UINT32_MAX : raster::kLayerItems;
@@ -278,14 +299,18 @@ Result<void> ShadowSystem::State::reserve_page_pool(const FrameDesc& desc) {
 }
 
 Result<void> ShadowSystem::State::reserve_physical_pool(const FrameDesc& desc) {
-  if (auto ok = frame->images.reserve(*device, *memory, image_layout, {.format = VK_FORMAT_D16_UNORM}, retired, desc.serial); !ok) return ok;
+  if (auto ok =
+          frame->images.reserve(*device, *memory, image_layout, {.format = VK_FORMAT_D16_UNORM}, retired, desc.serial);
+      !ok)
+    return ok;
   return frame->layer_writer.reserve(*device, *memory, image_layout, outgrown);
 }
 
 Result<void> ShadowSystem::State::reserve_sparse(FrameSlot& slot, const FrameDesc& desc) {
   if (auto ok = frame->sparse.reserve(*device, *memory, sparse_layout, retired, desc.serial); !ok) return ok;
   if (!slot.page_requests || slot.page_requests.size() < frame->sparse.request_bytes()) {
-    auto made = gpu::Buffer::create(*device, *memory, frame->sparse.request_bytes(), gpu::MemoryKind::readback, "page requests");
+    auto made = gpu::Buffer::create(*device, *memory, frame->sparse.request_bytes(), gpu::MemoryKind::readback,
+                                    "page requests");
     if (!made) return made.error();
     slot.page_requests = std::move(*made);
   }
@@ -302,8 +327,10 @@ uint64_t ShadowSystem::State::most_caster_pairs() const {
 /// many as the rounds demand.
 uint32_t ShadowSystem::State::caster_capacity() const {
   const uint64_t most = most_caster_pairs();
-  const uint64_t expected = caster_pairs_known ? std::min<uint64_t>(caster_pairs_seen * 3 / 2, kMaxGrownPairs) : (most + kMaxRounds - 1) / kMaxRounds;
-  return static_cast<uint32_t>(std::min<uint64_t>({most, std::max<uint64_t>(settings.max_caster_pairs, expected), UINT32_MAX / 4}));
+  const uint64_t expected = caster_pairs_known ? std::min<uint64_t>(caster_pairs_seen * 3 / 2, kMaxGrownPairs)
+                                               : (most + kMaxRounds - 1) / kMaxRounds;
+  return static_cast<uint32_t>(
+      std::min<uint64_t>({most, std::max<uint64_t>(settings.max_caster_pairs, expected), UINT32_MAX / 4}));
 }
 
 uint32_t ShadowSystem::State::caster_pairs_per_round() const {
@@ -320,10 +347,14 @@ uint32_t ShadowSystem::State::plan_rounds() {
 
 uint32_t ShadowSystem::State::shader_store() const {
   switch (settings.store) {
-    case Store::fixed_cubes: return shared::StoreAtlas;
-    case Store::page_pool: return shared::StorePool;
-    case Store::physical_pool: return shared::StoreImages;
-    case Store::hardware_sparse: return frame->sparse.form().is_attachment ? shared::StoreSparseDepth : shared::StoreSparseWords;
+    case Store::fixed_cubes:
+      return shared::StoreAtlas;
+    case Store::page_pool:
+      return shared::StorePool;
+    case Store::physical_pool:
+      return shared::StoreImages;
+    case Store::hardware_sparse:
+      return frame->sparse.form().is_attachment ? shared::StoreSparseDepth : shared::StoreSparseWords;
   }
   return shared::StorePool;
 }
@@ -331,7 +362,8 @@ uint32_t ShadowSystem::State::shader_store() const {
 Result<CameraRecords> camera_records(std::span<const CameraDesc> cameras) {
   const auto invalid = [](std::string text) { return Error{ErrorCode::invalid_argument, std::move(text)}; };
   if (cameras.empty() || cameras.size() > shared::MaxCameras)
-    return invalid("FrameDesc::cameras: 1…" + std::to_string(shared::MaxCameras) + " cameras are supported, not " + std::to_string(cameras.size()));
+    return invalid("FrameDesc::cameras: 1…" + std::to_string(shared::MaxCameras) + " cameras are supported, not " +
+                   std::to_string(cameras.size()));
   CameraRecords made;
   for (size_t i = 0; i < cameras.size(); ++i) {
     const CameraDesc& camera = cameras[i];
@@ -340,7 +372,8 @@ Result<CameraRecords> camera_records(std::span<const CameraDesc> cameras) {
       return invalid("CameraDesc: a normal image and an encoding belong together");
     for (size_t other = 0; other < i; ++other)
       if (cameras[other].id.value == camera.id.value)
-        return invalid("FrameDesc::cameras: two have the id " + std::to_string(camera.id.value) + "; each needs its own");
+        return invalid("FrameDesc::cameras: two have the id " + std::to_string(camera.id.value) +
+                       "; each needs its own");
     auto record = clusters::camera_record(camera);
     if (!record) return record.error();
     record->first_tile = i == 0 ? 0 : made.records[i - 1].end_tile;
@@ -350,17 +383,21 @@ Result<CameraRecords> camera_records(std::span<const CameraDesc> cameras) {
   return made;
 }
 
-void ShadowSystem::State::plan_cameras(std::span<const CameraDesc> cameras, std::span<const shared::CameraRecord> records) {
+void ShadowSystem::State::plan_cameras(std::span<const CameraDesc> cameras,
+                                       std::span<const shared::CameraRecord> records) {
   plan.camera_count = static_cast<uint32_t>(cameras.size());
   for (uint32_t i = 0; i < plan.camera_count; ++i) {
-    plan.cameras[i] = {.record = frame->camera_record(i), .images = current->frame_sets[i], .tiles = records[i].tiles,
+    plan.cameras[i] = {.record = frame->camera_record(i),
+                       .images = current->frame_sets[i],
+                       .tiles = records[i].tiles,
                        .normal_encoding = cameras[i].normal_encoding};
     plan.camera_ids[i] = cameras[i].id;
     plan.all_lights |= cameras[i].other_receivers;
   }
 }
 
-void ShadowSystem::State::fill_block(FrameBlock& block, std::span<const shared::CameraRecord> cameras, const FrameSlot& slot) const {
+void ShadowSystem::State::fill_block(FrameBlock& block, std::span<const shared::CameraRecord> cameras,
+                                     const FrameSlot& slot) const {
   shared::FrameRecord& record = block.record;
   record.camera = cameras.front();
   record.cameras = frame->camera_record(0);
@@ -393,7 +430,8 @@ void ShadowSystem::State::fill_block(FrameBlock& block, std::span<const shared::
 
 void ShadowSystem::State::write_sets(FrameSlot& slot, std::span<const CameraDesc> cameras) {
   const gpu::Functions& vk = device->vk();
-  const auto write = [&](VkDescriptorSet set, uint32_t binding, uint32_t element, const VkDescriptorImageInfo& image, VkDescriptorType type) {
+  const auto write = [&](VkDescriptorSet set, uint32_t binding, uint32_t element, const VkDescriptorImageInfo& image,
+                         VkDescriptorType type) {
     VkWriteDescriptorSet out{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     out.dstSet = set, out.dstBinding = binding, out.dstArrayElement = element, out.descriptorCount = 1;
     out.descriptorType = type;
@@ -416,13 +454,15 @@ void ShadowSystem::State::write_sets(FrameSlot& slot, std::span<const CameraDesc
       write(slot.host_set, 1, i, {VK_NULL_HANDLE, image.view(), kDepthRead}, kSampled);
     } else {
       write(slot.host_set, 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, kSampled);
-      write(slot.frame_sets[0], 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+      write(slot.frame_sets[0], 2, i, {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL},
+            VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     }
   }
 
   for (const uint32_t mask : frame->scene.new_masks()) {
     const auto& entry = frame->scene.masks().at(mask);
-    const VkDescriptorImageInfo image{entry.sampler ? entry.sampler : mask_sampler, entry.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkDescriptorImageInfo image{entry.sampler ? entry.sampler : mask_sampler, entry.view,
+                                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     write(mask_set, 0, mask, image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
   }
   frame->scene.new_masks().clear();

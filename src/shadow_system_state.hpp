@@ -14,16 +14,16 @@ namespace umbrage {
 struct FrameSlot {
   gpu::Uploader uploader;
   gpu::FrameTimers timers;
-  gpu::Buffer statistics;           // readback: FrameReport, then a word a light slot
-  gpu::Buffer cascade_states;       // readback, with cascades: CascadeState each
+  gpu::Buffer statistics;                   // readback: FrameReport, then a word a light slot
+  gpu::Buffer cascade_states;               // readback, with cascades: CascadeState each
   std::vector<CascadeStatistics> cascades;  // what the host knew of them
-  gpu::Buffer page_requests;        // readback, hardware sparse: SparseRequests, then pages
-  std::array<VkDescriptorSet, shared::MaxCameras> frame_sets{};   // the first also names the store's images
+  gpu::Buffer page_requests;                // readback, hardware sparse: SparseRequests, then pages
+  std::array<VkDescriptorSet, shared::MaxCameras> frame_sets{};  // the first also names the store's images
   VkDescriptorSet host_set = VK_NULL_HANDLE;
-  uint64_t serial = 0;              // 0: never used
+  uint64_t serial = 0;  // 0: never used
   uint32_t light_slots = 0;
   double cpu_record_ms = 0;
-  Statistics known;                 // what the host knew when it recorded
+  Statistics known;  // what the host knew when it recorded
   std::vector<LightStatus> without_map;
 };
 
@@ -40,11 +40,12 @@ uint32_t most_cascade_lights(const FrameSettings&);
 
 struct ShadowSystem::State {
   static constexpr uint32_t kMaxRounds = 128;
-  static constexpr uint64_t kMaxGrownPairs = 1u << 19;   // 80 MB; more pairs take more rounds
+  static constexpr uint64_t kMaxGrownPairs = 1u << 19;  // 80 MB; more pairs take more rounds
 
-  static constexpr uint64_t kMaxGridBytes = 64u << 20;   // of farthest receivers; beyond it their grids are coarser
-  static constexpr uint32_t kExpectedSunMaps = 16;       // levels of a directional light, before any frame has counted them
-  static constexpr uint32_t kMaxLargeTriangles = 1u << 19;  // queued at once, 380 bytes each; more are drawn by a thread each
+  static constexpr uint64_t kMaxGridBytes = 64u << 20;  // of farthest receivers; beyond it their grids are coarser
+  static constexpr uint32_t kExpectedSunMaps = 16;  // levels of a directional light, before any frame has counted them
+  static constexpr uint32_t kMaxLargeTriangles =
+      1u << 19;  // queued at once, 380 bytes each; more are drawn by a thread each
 
   ~State();
   /// What the settings' store needs of the device.
@@ -95,16 +96,16 @@ struct ShadowSystem::State {
   VkDescriptorSet mask_set = VK_NULL_HANDLE;
   std::vector<FrameSlot> slots;
   uint32_t next_slot = 0;
-  FrameSlot* current = nullptr;     // being recorded
+  FrameSlot* current = nullptr;  // being recorded
   FramePlan plan;
-  store::AtlasLayout layout;        // fixed cubes
+  store::AtlasLayout layout;            // fixed cubes
   uint32_t large_triangles = 1u << 17;  // page pool: room in the queue, grown from what frames report
-  uint32_t views = 0;               // of all lights
-  store::ImageLayout image_layout;  // physical pool
+  uint32_t views = 0;                   // of all lights
+  store::ImageLayout image_layout;      // physical pool
   store::SparseLayout sparse_layout;
-  bool pages_bound = false;         // in the frame that is recorded
-  maps::Maps::Sizes map_sizes;      // virtual shadow maps: grown from what frames report
-  std::array<uint32_t, 3> laid_out_for{};   // min and max resolution; lights with cascades at most
+  bool pages_bound = false;                // in the frame that is recorded
+  maps::Maps::Sizes map_sizes;             // virtual shadow maps: grown from what frames report
+  std::array<uint32_t, 3> laid_out_for{};  // min and max resolution; lights with cascades at most
   std::vector<cascades::CascadeLight> cascade_lights;
   std::vector<LightStatus> without_map;
   std::vector<gpu::Buffer> outgrown;

@@ -5,6 +5,8 @@
 namespace umbrage::test {
 
 /// Loaded ones stay so, and the leak checker knows their own leaks by name (lsan.supp).
-inline void keep_validation_layers() { dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE); }
+inline void keep_validation_layers() {
+  dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+}
 
 }  // namespace umbrage::test

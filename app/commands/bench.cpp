@@ -159,10 +159,12 @@ class LayeredRun {
     for (uint32_t round = 1; round <= rounds; ++round) {
       std::vector<Job> left = jobs;
       std::erase_if(left, [&](const Job& job) {
-        const LayeredRow* row = results_.find(job.row.scene, job.row.test_case, job.row.writer, job.row.side, job.row.maps);
+        const LayeredRow* row =
+            results_.find(job.row.scene, job.row.test_case, job.row.writer, job.row.side, job.row.maps);
         return row != nullptr && row->rounds >= round;
       });
-      const std::string name = rounds > 1 ? "round " + std::to_string(round) + " of " + std::to_string(rounds) + ": " : "";
+      const std::string name =
+          rounds > 1 ? "round " + std::to_string(round) + " of " + std::to_string(rounds) + ": " : "";
       if (auto measured = measure_all(left, *scenes, *bench, name); !measured) return measured;
     }
     return write_all();
@@ -201,8 +203,9 @@ class LayeredRun {
       current_writer = job.row.writer;
       const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const std::string left = done > 0 ? ", " + time_left(elapsed_s * (total - done) / done) + " left" : "";
-      progress.show(round + job.row.test_case + ", " + job.row.writer + ", " + std::to_string(job.row.side) + "²" + left, i + 1,
-                    jobs.size());
+      progress.show(
+          round + job.row.test_case + ", " + job.row.writer + ", " + std::to_string(job.row.side) + "²" + left, i + 1,
+          jobs.size());
       // Long jobs need fewer to be found undisturbed once.
       const uint32_t repeats = !options_.is_quick ? 5 : job.row.maps >= 32 ? 2 : 3;
       const auto times = bench.measure(*scene, views_of(arrays, job.row.maps),

@@ -18,8 +18,8 @@ struct CascadeRow {
   double static_triangles = 0, active_triangles = 0;
   double texels_exposed = 0;  ///< Of static maps.
   double occluded_casters = 0;
-  double gpu_ms = 0, gpu_ms_median = 0;        ///< All passes of the cascades.
-  double cpu_record_ms = 0;                    ///< The library's, of the whole frame; median.
+  double gpu_ms = 0, gpu_ms_median = 0;  ///< All passes of the cascades.
+  double cpu_record_ms = 0;              ///< The library's, of the whole frame; median.
   /// Near to far.
   std::vector<double> cascade_triangles, cascade_texels;
 

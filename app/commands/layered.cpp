@@ -8,8 +8,8 @@
 #include "commands/progress.hpp"
 #include "commands/session.hpp"
 #include "commands/surfaces.hpp"
-#include "layered/layered_cases.hpp"
 #include "host/layered_geometry.hpp"
+#include "layered/layered_cases.hpp"
 #include "layered/layered_recommendation.hpp"
 #include "layered/use_picture.hpp"
 

@@ -65,7 +65,8 @@ Result<void> check_show(const SharedOptions& options, const umbrage::Settings& s
   const auto all = shows();
   const auto info = std::find_if(all.begin(), all.end(), [&](const ShowInfo& i) { return i.show == options.show; });
   const std::string name = std::string("--show ") + info->name;
-  const bool has_pages = settings.fixed.store == umbrage::Store::page_pool || settings.fixed.store == umbrage::Store::hardware_sparse;
+  const bool has_pages =
+      settings.fixed.store == umbrage::Store::page_pool || settings.fixed.store == umbrage::Store::hardware_sparse;
   if (info->needs == ShowNeeds::page_pool && !has_pages)
     return invalid(name + ": needs maps made of pages: choose a preset with store=page_pool, such as default");
   if (info->needs == ShowNeeds::cascades && settings.frame.cascades == umbrage::CascadeMode::none)
@@ -112,8 +113,7 @@ Result<Session> Session::open(const SharedOptions& options, Progress& progress) 
   if (!loaded) return loaded.error();
   auto scene = std::make_unique<Scene>(std::move(*loaded));
   std::optional<MirrorBall> mirror;
-  if (options.mirror_ball)
-    mirror = add_mirror_ball(*scene, glm::vec3(*options.mirror_ball), options.mirror_ball->w);
+  if (options.mirror_ball) mirror = add_mirror_ball(*scene, glm::vec3(*options.mirror_ball), options.mirror_ball->w);
   const Pose first_pose = app::pose(*scene, options.time_s);
   const Box bounds = scene_bounds(*scene, first_pose);
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);

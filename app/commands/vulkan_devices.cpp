@@ -93,13 +93,15 @@ std::string missing(const std::vector<umbrage::RequirementCheck>& checks) {
   return reason;
 }
 
-PresetEntry describe(const Instance& instance, VkPhysicalDevice device, const umbrage::Preset& preset, size_t required) {
+PresetEntry describe(const Instance& instance, VkPhysicalDevice device, const umbrage::Preset& preset,
+                     size_t required) {
   const auto asked = umbrage::requirements(instance.get(), device, instance.loader_function(), preset.settings.fixed);
   if (!asked) return {.needs = {}, .reason = asked.error().message};
   PresetEntry entry{.needs = {}, .reason = missing(asked->checks)};
   size_t number = 0;
   for (const umbrage::RequirementCheck& check : asked->checks)
-    if (check.required && ++number > required) entry.needs += (entry.needs.empty() ? "" : ", ") + std::string(check.name);
+    if (check.required && ++number > required)
+      entry.needs += (entry.needs.empty() ? "" : ", ") + std::string(check.name);
   return entry;
 }
 

@@ -216,7 +216,7 @@ void FrameData::record_read_back(const GpuContext& context, VkCommandBuffer comm
   const VkBufferCopy all{0, 0, sizeof(gpu::GpuCounters)};
   context.vk.vkCmdCopyBuffer(commands, counters_.get(), counters_read_back_.get(), 1, &all);
   memory_barrier(context, commands, transfer_write, host_read);
-  memory_barrier(context, commands, compute_write, host_read);   // umbrage's counts of taps
+  memory_barrier(context, commands, compute_write, host_read);  // umbrage's counts of taps
 }
 
 const gpu::GpuCounters& FrameData::read_counters() const {

@@ -40,7 +40,12 @@ umbrage::HeadlessDesc headless_desc(const std::string& device, bool validate) {
   desc.get_instance_proc_addr = vkGetInstanceProcAddr;
   desc.device = device;
   desc.validate = validate;
-  desc.wanted = {.geometry_shader = true, .vertex_layer = true, .multiview = true, .mesh_shader = true, .sparse_residency = true, .shader_residency = true};
+  desc.wanted = {.geometry_shader = true,
+                 .vertex_layer = true,
+                 .multiview = true,
+                 .mesh_shader = true,
+                 .sparse_residency = true,
+                 .shader_residency = true};
   desc.features.multiDrawIndirect = VK_TRUE;
   desc.features.drawIndirectFirstInstance = VK_TRUE;
   desc.features.shaderInt64 = VK_TRUE;

@@ -91,7 +91,8 @@ class GpuContext {
   ~GpuContext();
 
   VolkDeviceTable vk{};
-  uint32_t shadow_store = 0;  ///< ShadowSystem::shader_store(), specialization constant 1 of shaders that look up shadows.
+  uint32_t shadow_store =
+      0;  ///< ShadowSystem::shader_store(), specialization constant 1 of shaders that look up shadows.
   VkDevice device() const { return headless_->desc().device; }
   VkPhysicalDevice physical_device() const { return headless_->desc().physical_device; }
   const umbrage::HeadlessDevice& headless() const { return *headless_; }

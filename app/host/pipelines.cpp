@@ -25,7 +25,8 @@ struct Constants {
   Constants(VkBool32 masked, uint32_t shadow_store) : values{masked, shadow_store} {}
   Constants(const Constants&) = delete;
   const uint32_t values[2];
-  static constexpr VkSpecializationMapEntry entries[] = {{0, 0, sizeof(uint32_t)}, {1, sizeof(uint32_t), sizeof(uint32_t)}};
+  static constexpr VkSpecializationMapEntry entries[] = {{0, 0, sizeof(uint32_t)},
+                                                         {1, sizeof(uint32_t), sizeof(uint32_t)}};
   const VkSpecializationInfo info{2, entries, sizeof(values), values};
 };
 

@@ -21,7 +21,7 @@ constexpr uint32_t tile = 8;
 constexpr uint32_t group_size = 64;
 constexpr VkDeviceSize visibility_chunk_bytes = VkDeviceSize{32} << 20;
 
-constexpr VkDeviceSize looked_up_offset = 64;   // the bits; the count of triangles comes first
+constexpr VkDeviceSize looked_up_offset = 64;  // the bits; the count of triangles comes first
 
 /// Bytes of one light in the shader's output: whole words.
 VkDeviceSize padded(uint32_t pixels) { return (VkDeviceSize{pixels} + 3) / 4 * 4; }
@@ -132,7 +132,8 @@ Result<void> ReadBack::mark_lookups(const GpuContext& context, VkDeviceSize pool
 
 Result<NeededWork> ReadBack::needed(GpuContext& context, PassContext& pass, umbrage::NeededTriangles& triangles) {
   memory_barrier(context, pass.commands, compute_write, compute_access);
-  if (auto recorded = triangles.record(pass.commands, looked_up_.address() + looked_up_offset, looked_up_.address()); !recorded)
+  if (auto recorded = triangles.record(pass.commands, looked_up_.address() + looked_up_offset, looked_up_.address());
+      !recorded)
     return recorded.error();
   memory_barrier(context, pass.commands, compute_write, host_read);
   if (auto done = context.submit_and_wait(); !done) return done.error();

@@ -33,7 +33,7 @@ class ReadBack {
 
   Handle<VkPipeline> surface_, visibility_;
   DeviceBuffer buffer_, band_buffer_;  ///< Mapped; they grow to what was asked for.
-  DeviceBuffer looked_up_;             ///< Mapped: the count of triangles, padding, then a bit for each texel of the pool.
+  DeviceBuffer looked_up_;  ///< Mapped: the count of triangles, padding, then a bit for each texel of the pool.
 };
 
 }  // namespace app

@@ -78,7 +78,7 @@ void ReflectionCube::place_views(float scene_diagonal_m) {
 Result<ReflectionCube::Layers> ReflectionCube::create_layers(GpuContext& context, const LayerImagesDesc& desc,
                                                              umbrage::LayeredPassSettings settings) {
   settings.writer = context.headless().desc().enabled.vertex_layer ? umbrage::LayeredWriter::vertex_layer
-                                                                    : umbrage::LayeredWriter::traditional;
+                                                                   : umbrage::LayeredWriter::traditional;
   settings.views = kFaces;
   settings.selection = umbrage::CasterSelection::each_view;
   auto images = LayerImages::create(context, desc);

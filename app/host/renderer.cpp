@@ -44,7 +44,8 @@ struct Renderer::State {
   uint32_t budget_mib = 0;
   uint64_t serial = 0;     ///< Of the last frame that was begun.
   uint64_t completed = 0;  ///< Of the last frame that the device has finished.
-  double first_part_ms = 0;  ///< Where pages are bound within the frame: from submitting what leads there until they are.
+  double first_part_ms =
+      0;  ///< Where pages are bound within the frame: from submitting what leads there until they are.
   uint32_t light_count = 0;
 
   Result<void> create_scene(const RendererDesc&, const Scene&, const Pose&);

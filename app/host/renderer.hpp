@@ -22,7 +22,7 @@ struct ActiveLight {
   glm::vec3 position{0}, direction{0, 0, -1};
   glm::vec3 color{1};
   float intensity = 1;
-  float range = 10;                 ///< Finite for point and spot.
+  float range = 10;  ///< Finite for point and spot.
   float inner_cone = 0, outer_cone = 0.7853982f;
 };
 
@@ -39,14 +39,25 @@ struct NeededWork {
 };
 
 enum class Show : uint8_t {
-  image, clusters, explicit_bounds, lights_per_pixel, normals, depth, resolution, texels_per_pixel, pages,
-  triangles_per_map, projection_maps, cube_projection, cascades
+  image,
+  clusters,
+  explicit_bounds,
+  lights_per_pixel,
+  normals,
+  depth,
+  resolution,
+  texels_per_pixel,
+  pages,
+  triangles_per_map,
+  projection_maps,
+  cube_projection,
+  cascades
 };
-enum class ShowLight : uint8_t { ignored, used };   ///< What becomes of FrameInput::show_light.
+enum class ShowLight : uint8_t { ignored, used };  ///< What becomes of FrameInput::show_light.
 enum class ShowNeeds : uint8_t { nothing, page_pool, cascades };
 struct ShowInfo {
   Show show;
-  const char* name;                 ///< As --show takes it.
+  const char* name;  ///< As --show takes it.
   const char* summary;
   ShowLight light = ShowLight::ignored;
   ShowNeeds needs = ShowNeeds::nothing;
@@ -55,31 +66,31 @@ std::span<const ShowInfo> shows();
 
 struct RendererDesc {
   uint32_t width = 1280, height = 720;
-  std::string device;               ///< As HeadlessDesc::device.
+  std::string device;  ///< As HeadlessDesc::device.
   bool validate = false;
   umbrage::Settings settings;
-  std::string batch_cache_dir;      ///< Prepared batches by content; empty = none.
-  uint32_t max_lights = 0;          ///< Lights that any frame will have.
-  std::optional<MirrorBall> mirror; ///< Of the scene; it shows what is around it. Needs store=page_pool.
+  std::string batch_cache_dir;       ///< Prepared batches by content; empty = none.
+  uint32_t max_lights = 0;           ///< Lights that any frame will have.
+  std::optional<MirrorBall> mirror;  ///< Of the scene; it shows what is around it. Needs store=page_pool.
 };
 
 struct FrameInput {
-  const Pose* pose = nullptr;       ///< Of the renderer's scene.
+  const Pose* pose = nullptr;  ///< Of the renderer's scene.
   std::span<const ActiveLight> lights;
   ViewCamera camera;
   umbrage::FrameSettings settings;
-  double time_s = 0;                ///< Of the animation, or whatever clock the frames follow.
+  double time_s = 0;  ///< Of the animation, or whatever clock the frames follow.
   Show show = Show::image;
-  std::optional<uint32_t> show_light;   ///< Index in lights that the debug picture is about; else it chooses.
+  std::optional<uint32_t> show_light;  ///< Index in lights that the debug picture is about; else it chooses.
 };
 
 struct FrameReport {
-  double frame_ms = 0;              ///< GPU, first to last timestamp, of the whole frame.
-  double wall_ms = 0;               ///< Submit to done.
-  double cpu_record_ms = 0;         ///< The library's recording.
+  double frame_ms = 0;                                 ///< GPU, first to last timestamp, of the whole frame.
+  double wall_ms = 0;                                  ///< Submit to done.
+  double cpu_record_ms = 0;                            ///< The library's recording.
   std::vector<std::pair<std::string, double>> passes;  ///< GPU ms: the host's and the library's, in order.
-  uint64_t lighting_computations = 0;   ///< Lights summed over pixels.
-  umbrage::Statistics statistics;   ///< Its spans are not valid here.
+  uint64_t lighting_computations = 0;                  ///< Lights summed over pixels.
+  umbrage::Statistics statistics;                      ///< Its spans are not valid here.
   std::vector<umbrage::CascadeStatistics> cascades;
   std::vector<umbrage::LightStatus> degraded;
 };

@@ -55,14 +55,15 @@ constexpr ShowInfo show_infos[] = {
      ShowLight::used},
     {Show::pages, "pages", "the pages of the map that each pixel's light uses, coloured by its resolution",
      ShowLight::used, ShowNeeds::page_pool},
-    {Show::triangles_per_map, "triangles-per-map", "how many triangles are drawn into the map that each pixel's light uses",
-     ShowLight::used, ShowNeeds::page_pool},
+    {Show::triangles_per_map, "triangles-per-map",
+     "how many triangles are drawn into the map that each pixel's light uses", ShowLight::used, ShowNeeds::page_pool},
     {Show::projection_maps, "projection-maps", "the maps of one light unfolded: tiles with receivers, and pages",
      ShowLight::used, ShowNeeds::page_pool},
     {Show::cube_projection, "cube-projection", "the box of the cluster in the middle on the virtual cube of its light",
      ShowLight::used},
-    {Show::cascades, "cascades", "the cascades of a directional light: finished (grey), taken over (blue), newly drawn (red)",
-     ShowLight::used, ShowNeeds::cascades},
+    {Show::cascades, "cascades",
+     "the cascades of a directional light: finished (grey), taken over (blue), newly drawn (red)", ShowLight::used,
+     ShowNeeds::cascades},
 };
 
 uint32_t shader_show(Show show) {

@@ -20,21 +20,21 @@ struct MorphTarget {
 /// Triangles of one material. Every array is empty or has one element per position; indices are in range.
 struct Primitive {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;       ///< Always filled by importers (flat ones made where the file has none).
-  std::vector<glm::vec4> tangents;      ///< w = handedness; empty: the renderer derives them where needed.
+  std::vector<glm::vec3> normals;   ///< Always filled by importers (flat ones made where the file has none).
+  std::vector<glm::vec4> tangents;  ///< w = handedness; empty: the renderer derives them where needed.
   std::vector<glm::vec2> uv[2];
   std::vector<glm::vec4> colors;
-  std::vector<glm::u16vec4> joints;     ///< With weights that sum to 1.
+  std::vector<glm::u16vec4> joints;  ///< With weights that sum to 1.
   std::vector<glm::vec4> weights;
-  std::vector<uint32_t> indices;        ///< Triangle list.
+  std::vector<uint32_t> indices;  ///< Triangle list.
   std::vector<MorphTarget> targets;
-  uint32_t material = 0;                ///< Into Scene::materials (importers add a default one).
+  uint32_t material = 0;  ///< Into Scene::materials (importers add a default one).
 };
 
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::vector<float> weights;           ///< Default morph weights, one per target.
+  std::vector<float> weights;  ///< Default morph weights, one per target.
 };
 
 struct Skin {
@@ -49,30 +49,31 @@ struct Light {
   std::string name;
   LightKind kind = LightKind::point;
   glm::vec3 color{1};
-  float intensity = 1;                  ///< Candela; lux for directional.
-  float range = std::numeric_limits<float>::infinity();  ///< Infinite: the renderer finds one from its irradiance threshold.
-  float inner_cone = 0, outer_cone = 0.7853982f;         ///< Half-angles, radians.
+  float intensity = 1;  ///< Candela; lux for directional.
+  float range =
+      std::numeric_limits<float>::infinity();     ///< Infinite: the renderer finds one from its irradiance threshold.
+  float inner_cone = 0, outer_cone = 0.7853982f;  ///< Half-angles, radians.
 };
 
 struct Camera {
   std::string name;
   bool orthographic = false;
-  float fov_y = 0.9f;                   ///< Radians.
-  float aspect = 0;                     ///< 0: that of the picture.
-  float half_width = 1, half_height = 1;///< Orthographic.
+  float fov_y = 0.9f;                     ///< Radians.
+  float aspect = 0;                       ///< 0: that of the picture.
+  float half_width = 1, half_height = 1;  ///< Orthographic.
   float near = 0.1f;
   float far = std::numeric_limits<float>::infinity();
 };
 
 struct Node {
   std::string name;
-  int parent = -1;                      ///< Parents come before children.
+  int parent = -1;  ///< Parents come before children.
   glm::vec3 translation{0};
   glm::quat rotation{1, 0, 0, 0};
   glm::vec3 scale{1};
-  std::optional<glm::mat4> matrix;      ///< Instead of translation, rotation, scale; never animated.
+  std::optional<glm::mat4> matrix;  ///< Instead of translation, rotation, scale; never animated.
   int mesh = -1, skin = -1, camera = -1, light = -1;
-  std::vector<float> weights;           ///< Empty: the mesh's.
+  std::vector<float> weights;  ///< Empty: the mesh's.
 };
 
 enum class Interpolation : uint8_t { step, linear, cubic_spline };
@@ -82,14 +83,14 @@ struct Channel {
   uint32_t node = 0;
   AnimatedPath path = AnimatedPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times;             ///< Strictly increasing seconds.
-  std::vector<float> values;            ///< times.size() × width floats (× 3 for cubic splines: in-tangent, value, out-tangent).
+  std::vector<float> times;   ///< Strictly increasing seconds.
+  std::vector<float> values;  ///< times.size() × width floats (× 3 for cubic splines: in-tangent, value, out-tangent).
 };
 
 struct Animation {
   std::string name;
   std::vector<Channel> channels;
-  float duration = 0;                   ///< Largest key time. Animations loop.
+  float duration = 0;  ///< Largest key time. Animations loop.
 };
 
 struct Scene {
@@ -100,16 +101,16 @@ struct Scene {
   std::vector<Skin> skins;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  std::vector<Node> nodes;              ///< Only those of the scene shown.
-  std::vector<Animation> animations;    ///< All play at once.
+  std::vector<Node> nodes;            ///< Only those of the scene shown.
+  std::vector<Animation> animations;  ///< All play at once.
 };
 
 /// Triangles of one node's mesh in the world.
 struct PosedInstance {
   uint32_t node = 0, mesh = 0;
-  glm::mat4 world_from_mesh{1};         ///< Identity for skinned meshes (their joints say it all).
-  int skin = -1;                        ///< Into Pose::joint_matrices.
-  std::vector<float> weights;           ///< Morph weights; empty: not morphed.
+  glm::mat4 world_from_mesh{1};  ///< Identity for skinned meshes (their joints say it all).
+  int skin = -1;                 ///< Into Pose::joint_matrices.
+  std::vector<float> weights;    ///< Morph weights; empty: not morphed.
 };
 
 struct PosedLight {
@@ -125,7 +126,7 @@ struct PosedLight {
 struct PosedCamera {
   std::string name;
   Camera lens;
-  glm::mat4 world_from_camera{1};       ///< Looks along -Z, rigid.
+  glm::mat4 world_from_camera{1};  ///< Looks along -Z, rigid.
 };
 
 /// The scene at a time. Arrays keep their order and length over time (instances by node, lights by node).
@@ -133,7 +134,8 @@ struct Pose {
   std::vector<PosedInstance> instances;
   std::vector<PosedLight> lights;
   std::vector<PosedCamera> cameras;
-  std::vector<std::vector<glm::mat4>> joint_matrices;  ///< Per instance with a skin: world from mesh-bind space, one per joint.
+  std::vector<std::vector<glm::mat4>>
+      joint_matrices;  ///< Per instance with a skin: world from mesh-bind space, one per joint.
 };
 
 Pose pose(const Scene& scene, double time_s);

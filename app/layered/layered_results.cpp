@@ -27,7 +27,8 @@ const LayeredRow* LayeredResults::find(const std::string& scene, const std::stri
 }
 
 void LayeredResults::add(const LayeredRow& round) {
-  const auto known = std::find_if(rows.begin(), rows.end(), [&](const LayeredRow& row) { return row.is_same_measurement(round); });
+  const auto known =
+      std::find_if(rows.begin(), rows.end(), [&](const LayeredRow& row) { return row.is_same_measurement(round); });
   if (known == rows.end()) {
     rows.push_back(round);
     return;

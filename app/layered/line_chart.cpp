@@ -114,8 +114,8 @@ std::string charts_svg(const std::vector<Chart>& charts) {
   for (size_t i = 0; i < named.size(); ++i) {
     const double x = 20 + (width - 40) / kNamesARow * static_cast<double>(i % kNamesARow);
     const double y = plots + 8 + kLegendRow * static_cast<double>(i / kNamesARow);
-    out += "<path d=\"M" + number(x) + " " + number(y - 1) + "h20\"" + stroke(colors[named[i]->family], named[i]->dash) +
-           "/>\n";
+    out += "<path d=\"M" + number(x) + " " + number(y - 1) + "h20\"" +
+           stroke(colors[named[i]->family], named[i]->dash) + "/>\n";
     out += text_at(x + 26, y + 3, named[i]->name, "");
   }
   return out + "</svg>\n";

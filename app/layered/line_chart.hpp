@@ -10,8 +10,8 @@ namespace app {
 struct ChartLine {
   std::string name;
   std::vector<std::pair<double, double>> points;  ///< By x.
-  std::string family;  ///< Lines of a family share a colour.
-  uint32_t dash = 0;   ///< 0: solid; 1, 2: how members of a family are told apart.
+  std::string family;                             ///< Lines of a family share a colour.
+  uint32_t dash = 0;                              ///< 0: solid; 1, 2: how members of a family are told apart.
 };
 struct Chart {
   std::string title, x_label, y_label;

@@ -10,10 +10,10 @@
 #include <optional>
 
 #include "host/descriptors.hpp"
-#include "host/textures.hpp"
 #include "host/layer_images.hpp"
 #include "host/layered_geometry.hpp"
 #include "host/mirror_ball.hpp"
+#include "host/textures.hpp"
 
 namespace app {
 

@@ -23,8 +23,8 @@ constexpr float eye_height_m = 10.0f, near_m = 0.1f;
 struct Shared {
   umbrage::Vec3 positions[12] = {{-10, 0, -10}, {10, 0, -10}, {10, 0, 10}, {-10, 0, 10}, {-1, 0, -1}, {1, 0, -1},
                                  {1, 0, 1},     {-1, 0, 1},   {-1, 2, -1}, {1, 2, -1},   {1, 2, 1},   {-1, 2, 1}};
-  uint32_t indices[36] = {0, 1, 2, 0, 2, 3,  8, 9, 10, 8, 10, 11, 4, 5, 9,  4, 9,  8,
-                          5, 6, 10, 5, 10, 9, 6, 7, 11, 6, 11, 10, 7, 4, 8,  7, 8,  11};
+  uint32_t indices[36] = {0, 1, 2,  0, 2,  3, 8, 9, 10, 8, 10, 11, 4, 5, 9, 4, 9, 8,
+                          5, 6, 10, 5, 10, 9, 6, 7, 11, 6, 11, 10, 7, 4, 8, 7, 8, 11};
   uint32_t pixels_in_shadow = 0;
 };
 constexpr Shared scene;
@@ -111,28 +111,33 @@ void Host::make_buffer() {
 }
 
 void Host::make_depth_image() {
-  depth_ = device_.createImageUnique({
-      .imageType = vk::ImageType::e2D, .format = vk::Format::eD32Sfloat, .extent = {picture_size, picture_size, 1},
-      .mipLevels = 1, .arrayLayers = 1,
-      .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled});
+  depth_ = device_.createImageUnique(
+      {.imageType = vk::ImageType::e2D,
+       .format = vk::Format::eD32Sfloat,
+       .extent = {picture_size, picture_size, 1},
+       .mipLevels = 1,
+       .arrayLayers = 1,
+       .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled});
   depth_memory_ = allocate(device_.getImageMemoryRequirements(*depth_), vk::MemoryPropertyFlagBits::eDeviceLocal);
   device_.bindImageMemory(*depth_, *depth_memory_, 0);
-  depth_view_ = device_.createImageViewUnique(
-      {.image = *depth_, .viewType = vk::ImageViewType::e2D, .format = vk::Format::eD32Sfloat,
-       .subresourceRange = {vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1}});
+  depth_view_ = device_.createImageViewUnique({.image = *depth_,
+                                               .viewType = vk::ImageViewType::e2D,
+                                               .format = vk::Format::eD32Sfloat,
+                                               .subresourceRange = {vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1}});
 }
 
 void Host::make_depth_set() {
-  const vk::DescriptorSetLayoutBinding binding{
-      0, vk::DescriptorType::eSampledImage, 1, vk::ShaderStageFlagBits::eCompute};
+  const vk::DescriptorSetLayoutBinding binding{0, vk::DescriptorType::eSampledImage, 1,
+                                               vk::ShaderStageFlagBits::eCompute};
   set_layout_ = device_.createDescriptorSetLayoutUnique({.bindingCount = 1, .pBindings = &binding});
   const vk::DescriptorPoolSize size{vk::DescriptorType::eSampledImage, 1};
   pool_ = device_.createDescriptorPoolUnique({.maxSets = 1, .poolSizeCount = 1, .pPoolSizes = &size});
-  set_ = device_.allocateDescriptorSets(
-      {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_}).front();
+  set_ =
+      device_.allocateDescriptorSets({.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_})
+          .front();
   const vk::DescriptorImageInfo image{.imageView = *depth_view_, .imageLayout = vk::ImageLayout::eDepthReadOnlyOptimal};
-  const vk::WriteDescriptorSet write{.dstSet = set_, .descriptorCount = 1,
-                                     .descriptorType = vk::DescriptorType::eSampledImage, .pImageInfo = &image};
+  const vk::WriteDescriptorSet write{
+      .dstSet = set_, .descriptorCount = 1, .descriptorType = vk::DescriptorType::eSampledImage, .pImageInfo = &image};
   device_.updateDescriptorSets(write, {});
 }
 
@@ -146,9 +151,10 @@ void Host::make_draw_pipeline() {
       .stage = vk::ShaderStageFlagBits::eVertex, .module = *shader, .pName = "main"};
   const vk::VertexInputBindingDescription binding{.stride = sizeof(umbrage::Vec3)};
   const vk::VertexInputAttributeDescription attribute{.format = vk::Format::eR32G32B32Sfloat};
-  const vk::PipelineVertexInputStateCreateInfo input{
-      .vertexBindingDescriptionCount = 1, .pVertexBindingDescriptions = &binding,
-      .vertexAttributeDescriptionCount = 1, .pVertexAttributeDescriptions = &attribute};
+  const vk::PipelineVertexInputStateCreateInfo input{.vertexBindingDescriptionCount = 1,
+                                                     .pVertexBindingDescriptions = &binding,
+                                                     .vertexAttributeDescriptionCount = 1,
+                                                     .pVertexAttributeDescriptions = &attribute};
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
   const vk::Viewport area{0, 0, picture_size, picture_size, 0, 1};
   const vk::Rect2D scissor{{0, 0}, {picture_size, picture_size}};
@@ -159,10 +165,18 @@ void Host::make_draw_pipeline() {
   const vk::PipelineDepthStencilStateCreateInfo depth{
       .depthTestEnable = true, .depthWriteEnable = true, .depthCompareOp = vk::CompareOp::eGreater};
   const vk::PipelineRenderingCreateInfo rendering{.depthAttachmentFormat = vk::Format::eD32Sfloat};
-  draw_ = device_.createGraphicsPipelineUnique(nullptr, {
-      .pNext = &rendering, .stageCount = 1, .pStages = &stage, .pVertexInputState = &input,
-      .pInputAssemblyState = &assembly, .pViewportState = &viewport, .pRasterizationState = &raster,
-      .pMultisampleState = &samples, .pDepthStencilState = &depth, .layout = *draw_layout_}).value;
+  draw_ = device_
+              .createGraphicsPipelineUnique(nullptr, {.pNext = &rendering,
+                                                      .stageCount = 1,
+                                                      .pStages = &stage,
+                                                      .pVertexInputState = &input,
+                                                      .pInputAssemblyState = &assembly,
+                                                      .pViewportState = &viewport,
+                                                      .pRasterizationState = &raster,
+                                                      .pMultisampleState = &samples,
+                                                      .pDepthStencilState = &depth,
+                                                      .layout = *draw_layout_})
+              .value;
 }
 
 /// Set 0 is the host's: depth. Set 1 is umbrage's, as UMBRAGE_SET says in the shader.
@@ -173,26 +187,32 @@ void Host::make_count_pipeline(vk::DescriptorSetLayout umbrage_layout) {
       {.setLayoutCount = 2, .pSetLayouts = sets, .pushConstantRangeCount = 1, .pPushConstantRanges = &range});
   const auto shader =
       device_.createShaderModuleUnique({.codeSize = sizeof(count_shadow_spirv), .pCode = count_shadow_spirv});
-  count_ = device_.createComputePipelineUnique(nullptr, {
-      .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
-      .layout = *count_layout_}).value;
+  count_ = device_
+               .createComputePipelineUnique(
+                   nullptr, {.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
+                             .layout = *count_layout_})
+               .value;
 }
 
 void Host::depth_barrier(vk::CommandBuffer commands, vk::ImageLayout from, vk::ImageLayout to) const {
   const vk::ImageMemoryBarrier2 barrier{
-      .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands, .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+      .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+      .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
       .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
       .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
-      .oldLayout = from, .newLayout = to, .image = *depth_,
+      .oldLayout = from,
+      .newLayout = to,
+      .image = *depth_,
       .subresourceRange = {vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1}};
   commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
 void Host::draw_depth(vk::CommandBuffer commands) const {
   depth_barrier(commands, vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal);
-  const vk::RenderingAttachmentInfo attachment{
-      .imageView = *depth_view_, .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-      .loadOp = vk::AttachmentLoadOp::eClear, .storeOp = vk::AttachmentStoreOp::eStore};
+  const vk::RenderingAttachmentInfo attachment{.imageView = *depth_view_,
+                                               .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                               .loadOp = vk::AttachmentLoadOp::eClear,
+                                               .storeOp = vk::AttachmentStoreOp::eStore};
   commands.beginRendering(
       {.renderArea = {{0, 0}, {picture_size, picture_size}}, .layerCount = 1, .pDepthAttachment = &attachment});
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *draw_);
@@ -211,9 +231,10 @@ void Host::count_shadow(vk::CommandBuffer commands, const umbrage::ShaderInterfa
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *count_layout_, 0, {set_, shadows.set}, {});
   commands.pushConstants(*count_layout_, vk::ShaderStageFlagBits::eCompute, 0, sizeof(push), &push);
   commands.dispatch(picture_size / 8, picture_size / 8, 1);
-  const vk::MemoryBarrier2 to_host{
-      .srcStageMask = vk::PipelineStageFlagBits2::eComputeShader, .srcAccessMask = vk::AccessFlagBits2::eShaderWrite,
-      .dstStageMask = vk::PipelineStageFlagBits2::eHost, .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+  const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eComputeShader,
+                                   .srcAccessMask = vk::AccessFlagBits2::eShaderWrite,
+                                   .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                   .dstAccessMask = vk::AccessFlagBits2::eHostRead};
   commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
 }
 
@@ -233,8 +254,11 @@ void run() {
       device.allocateCommandBuffers({.commandPool = *pool, .commandBufferCount = 1}).front();
 
   // A frame: begin, record the scene, draw depth, record the shadows, shade.
-  const umbrage::CameraDesc camera{.view_from_world = view_from_world, .clip_from_view = clip_from_view,
-                                   .width = picture_size, .height = picture_size, .depth = host.depth_view()};
+  const umbrage::CameraDesc camera{.view_from_world = view_from_world,
+                                   .clip_from_view = clip_from_view,
+                                   .width = picture_size,
+                                   .height = picture_size,
+                                   .depth = host.depth_view()};
   check(system.begin_frame({.serial = 1, .cameras = {&camera, 1}}));
   commands.begin(vk::CommandBufferBeginInfo{});
   system.record_scene(commands);

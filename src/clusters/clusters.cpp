@@ -26,14 +26,18 @@ Result<Clusters> Clusters::create(const gpu::PipelineFactory& factory) {
   auto scan = gpu::PrefixSum::create(factory);
   if (!scan) return scan.error();
   out.scan_ = std::move(*scan);
-  const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; uint32_t writes, brute_force; } all[] = {
-      {out.assign_, kAssign, "assign clusters", 0, 0},
-      {out.count_, kCount, "count clusters", 0, 0},
-      {out.compact_, kCompact, "compact clusters", 0, 0},
-      {out.count_lights_[0], kListLights, "count lights", 0, 0},
-      {out.write_lights_[0], kListLights, "write lights", 1, 0},
-      {out.count_lights_[1], kListLights, "count lights, brute force", 0, 1},
-      {out.write_lights_[1], kListLights, "write lights, brute force", 1, 1}};
+  const struct {
+    gpu::Pipeline& target;
+    std::span<const uint32_t> spirv;
+    const char* name;
+    uint32_t writes, brute_force;
+  } all[] = {{out.assign_, kAssign, "assign clusters", 0, 0},
+             {out.count_, kCount, "count clusters", 0, 0},
+             {out.compact_, kCompact, "compact clusters", 0, 0},
+             {out.count_lights_[0], kListLights, "count lights", 0, 0},
+             {out.write_lights_[0], kListLights, "write lights", 1, 0},
+             {out.count_lights_[1], kListLights, "count lights, brute force", 0, 1},
+             {out.write_lights_[1], kListLights, "write lights, brute force", 1, 1}};
   for (const auto& entry : all) {
     auto made = factory.compute(entry.spirv, entry.name, {{0, entry.writes}, {1, entry.brute_force}});
     if (!made) return made.error();
@@ -42,11 +46,16 @@ Result<Clusters> Clusters::create(const gpu::PipelineFactory& factory) {
   return out;
 }
 
-Result<void> Clusters::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t tile_count, uint32_t pair_capacity,
-                               uint32_t light_slots, std::vector<gpu::Buffer>& retired) {
+Result<void> Clusters::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t tile_count,
+                               uint32_t pair_capacity, uint32_t light_slots, std::vector<gpu::Buffer>& retired) {
   const uint32_t clusters = std::max(tile_count * shared::ClustersPerTile, 4096u);
   const VkDeviceSize tiles = tile_count;
-  struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
+  struct Need {
+    gpu::Buffer& target;
+    VkDeviceSize bytes;
+    const char* name;
+    gpu::Buffer made;
+  };
   Need needs[] = {{words_, tiles * shared::SliceWords * sizeof(shared::ClusterWord), "cluster words", {}},
                   {found_, tiles * shared::MaxSlices * sizeof(shared::FoundCluster), "found clusters", {}},
                   {tile_counts_, tiles * sizeof(uint32_t), "tile counts", {}},
@@ -93,7 +102,8 @@ void Clusters::record_clusters(gpu::Recorder& recorder, const gpu::Buffer& frame
     gpu::Scope scope(recorder, "assign clusters");
     gpu::Pass pass = recorder.pass("assign clusters");
     pass.read(frame);
-    shared::AssignPush push{.words = pass.write(words_), .found = pass.write(found_), .tile_counts = pass.write(tile_counts_)};
+    shared::AssignPush push{
+        .words = pass.write(words_), .found = pass.write(found_), .tile_counts = pass.write(tile_counts_)};
     for (const FrameCamera& camera : cameras) {
       recorder.use_frame_set(camera.images);
       push.camera = camera.record, push.normal_encoding = static_cast<uint32_t>(camera.normal_encoding);
@@ -145,7 +155,8 @@ void Clusters::record_lights(gpu::Recorder& recorder, const gpu::Buffer& frame, 
   inputs(pass);
   pass.read(counters, gpu::Access::indirect_read);
   push.counters = pass.write(counters), push.counts = pass.read(counts_), push.lists = pass.write(lists_);
-  push.cluster_lights = pass.write(lights_), push.used = pass.write(used_), push.pair_clusters = pass.write(pair_clusters_);
+  push.cluster_lights = pass.write(lights_), push.used = pass.write(used_),
+  push.pair_clusters = pass.write(pair_clusters_);
   pass.dispatch_indirect(write_lights_[brute_force], push, counters, 0);
 }
 

@@ -25,7 +25,8 @@ class RangePool {
   }
   void give_back(uint32_t first, uint32_t count) {
     if (count == 0) return;
-    auto at = std::lower_bound(free_.begin(), free_.end(), first, [](const Range& r, uint32_t f) { return r.first < f; });
+    auto at =
+        std::lower_bound(free_.begin(), free_.end(), first, [](const Range& r, uint32_t f) { return r.first < f; });
     at = free_.insert(at, {first, count});
     if (at + 1 != free_.end() && at->first + at->count == (at + 1)->first) {
       at->count += (at + 1)->count;
@@ -39,7 +40,9 @@ class RangePool {
   uint32_t size() const { return size_; }
 
  private:
-  struct Range { uint32_t first, count; };
+  struct Range {
+    uint32_t first, count;
+  };
   std::vector<Range> free_;
   uint32_t size_ = 0;
 };

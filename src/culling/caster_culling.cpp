@@ -24,10 +24,13 @@ Result<CasterCulling> CasterCulling::create(const gpu::PipelineFactory& factory)
   if (!scan) return scan.error();
   out.scan_ = std::move(*scan);
   for (uint32_t masks_views = 0; masks_views < 2; ++masks_views) {
-    const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
-        {out.count_[masks_views], kCount, "count casters"},
-        {out.write_[masks_views], kWrite, "write casters"},
-        {out.write_views_[masks_views], kWriteViews, "write view casters"}};
+    const struct {
+      gpu::Pipeline& target;
+      std::span<const uint32_t> spirv;
+      const char* name;
+    } all[] = {{out.count_[masks_views], kCount, "count casters"},
+               {out.write_[masks_views], kWrite, "write casters"},
+               {out.write_views_[masks_views], kWriteViews, "write view casters"}};
     for (const auto& entry : all) {
       auto made = factory.compute(entry.spirv, entry.name, {{0, masks_views}});
       if (!made) return made.error();
@@ -37,15 +40,25 @@ Result<CasterCulling> CasterCulling::create(const gpu::PipelineFactory& factory)
   return out;
 }
 
-Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t light_slots, uint32_t capacity,
-                                    uint32_t views_at_once, uint32_t caster_slots, std::vector<gpu::Buffer>& retired) {
+Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t light_slots,
+                                    uint32_t capacity, uint32_t views_at_once, uint32_t caster_slots,
+                                    std::vector<gpu::Buffer>& retired) {
   const uint32_t entries = std::max(light_slots, 1u) * shared::TraverseThreads;
   const VkDeviceSize commands = std::max<VkDeviceSize>(2ull * capacity, 2ull * views_at_once * caster_slots);
-  struct Need { gpu::Buffer& target; VkDeviceSize bytes; const char* name; gpu::Buffer made; };
-  Need needs[] = {{counts_, entries * sizeof(uint32_t), "caster counts", {}},
-                  {instances_, std::max<VkDeviceSize>(capacity, 2ull * views_at_once * caster_slots) * sizeof(shared::CasterInstance), "caster instances", {}},
-                  {commands_, commands * sizeof(shared::DrawCommand), "draw commands", {}},
-                  {draw_counts_, std::max(views_at_once, 1u) * sizeof(shared::DrawCounts), "draw counts", {}}};
+  struct Need {
+    gpu::Buffer& target;
+    VkDeviceSize bytes;
+    const char* name;
+    gpu::Buffer made;
+  };
+  Need needs[] = {
+      {counts_, entries * sizeof(uint32_t), "caster counts", {}},
+      {instances_,
+       std::max<VkDeviceSize>(capacity, 2ull * views_at_once * caster_slots) * sizeof(shared::CasterInstance),
+       "caster instances",
+       {}},
+      {commands_, commands * sizeof(shared::DrawCommand), "draw commands", {}},
+      {draw_counts_, std::max(views_at_once, 1u) * sizeof(shared::DrawCounts), "draw counts", {}}};
   for (Need& need : needs) {
     if (need.target && need.target.size() >= need.bytes) continue;
     auto made = gpu::Buffer::create(device, memory, need.bytes, gpu::MemoryKind::device, need.name);
@@ -66,9 +79,15 @@ Result<void> CasterCulling::reserve(const gpu::Device& device, gpu::Memory& memo
 shared::TraversePush CasterCulling::inputs(gpu::Pass& pass, const Inputs& in) const {
   const scene::BoxTree& tree = in.scene.caster_tree();
   pass.read(in.frame);
-  return {.lights = pass.read(in.scene.light_buffer()), .views = pass.read(in.views), .casters = pass.read(in.scene.caster_buffer()),
-          .instances = pass.read(in.scene.instance_buffer()), .batches = pass.read(in.scene.batch_buffer()),
-          .order = pass.read(tree.order()), .leaves = pass.read(tree.leaves()), .nodes = pass.read(tree.nodes()), .shape = in.tree_shape};
+  return {.lights = pass.read(in.scene.light_buffer()),
+          .views = pass.read(in.views),
+          .casters = pass.read(in.scene.caster_buffer()),
+          .instances = pass.read(in.scene.instance_buffer()),
+          .batches = pass.read(in.scene.batch_buffer()),
+          .order = pass.read(tree.order()),
+          .leaves = pass.read(tree.leaves()),
+          .nodes = pass.read(tree.nodes()),
+          .shape = in.tree_shape};
 }
 
 void CasterCulling::clear_draw_counts(gpu::Recorder& recorder) {
@@ -86,7 +105,8 @@ void CasterCulling::record_count(gpu::Recorder& recorder, const Inputs& in) {
     push.counts = pass.write(counts_);
     pass.dispatch(count_[in.mode != umbrage::CasterCulling::light_volume], push, slots);
   }
-  scan_.record(recorder, counts_, slots * shared::TraverseThreads, in.counters, offsetof(shared::FrameCounters, caster_pairs));
+  scan_.record(recorder, counts_, slots * shared::TraverseThreads, in.counters,
+               offsetof(shared::FrameCounters, caster_pairs));
 }
 
 void CasterCulling::record_round(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {

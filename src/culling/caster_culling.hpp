@@ -12,15 +12,15 @@ class CasterCulling {
  public:
   static Result<CasterCulling> create(const gpu::PipelineFactory&);
   /// capacity: instances a round. views_at_once and caster_slots size the command ranges of the traditional writer (0: not used).
-  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t light_slots, uint32_t capacity, uint32_t views_at_once,
-                       uint32_t caster_slots, std::vector<gpu::Buffer>& retired);
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t light_slots, uint32_t capacity,
+                       uint32_t views_at_once, uint32_t caster_slots, std::vector<gpu::Buffer>& retired);
   struct Inputs {
     const scene::GpuScene& scene;
     const gpu::Buffer& views;
     const gpu::Buffer& counters;
     const gpu::Buffer& used_lights;
     const gpu::Buffer& frame;
-    VkDeviceAddress tree_shape;   ///< In `frame`.
+    VkDeviceAddress tree_shape;  ///< In `frame`.
     umbrage::CasterCulling mode;
   };
   /// Counts instances and scans them; their number goes to FrameCounters::caster_pairs.
@@ -31,7 +31,7 @@ class CasterCulling {
   void record_views(gpu::Recorder&, const Inputs&, uint32_t first, uint32_t count);
 
   uint32_t capacity() const { return capacity_; }
-  uint32_t view_range() const { return view_range_; }   ///< Commands a view and kind.
+  uint32_t view_range() const { return view_range_; }  ///< Commands a view and kind.
   const gpu::Buffer& instances() const { return instances_; }
   const gpu::Buffer& commands() const { return commands_; }
   const gpu::Buffer& draw_counts() const { return draw_counts_; }

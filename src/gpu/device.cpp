@@ -7,23 +7,40 @@ namespace umbrage::gpu {
 
 const char* result_name(VkResult result) {
   switch (result) {
-    case VK_SUCCESS: return "VK_SUCCESS";
-    case VK_NOT_READY: return "VK_NOT_READY";
-    case VK_TIMEOUT: return "VK_TIMEOUT";
-    case VK_INCOMPLETE: return "VK_INCOMPLETE";
-    case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
-    case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
-    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
-    case VK_ERROR_LAYER_NOT_PRESENT: return "VK_ERROR_LAYER_NOT_PRESENT";
-    case VK_ERROR_EXTENSION_NOT_PRESENT: return "VK_ERROR_EXTENSION_NOT_PRESENT";
-    case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
-    case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER";
-    case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
-    case VK_ERROR_FORMAT_NOT_SUPPORTED: return "VK_ERROR_FORMAT_NOT_SUPPORTED";
-    case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
-    default: return "a Vulkan error";
+    case VK_SUCCESS:
+      return "VK_SUCCESS";
+    case VK_NOT_READY:
+      return "VK_NOT_READY";
+    case VK_TIMEOUT:
+      return "VK_TIMEOUT";
+    case VK_INCOMPLETE:
+      return "VK_INCOMPLETE";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST:
+      return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_MEMORY_MAP_FAILED:
+      return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+      return "VK_ERROR_LAYER_NOT_PRESENT";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+      return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return "VK_ERROR_INCOMPATIBLE_DRIVER";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+      return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED:
+      return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+      return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    default:
+      return "a Vulkan error";
   }
 }
 
@@ -70,17 +87,20 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceDesc& desc) {
   device->binds_sparse_ = (families[desc.queue_family].queueFlags & VK_QUEUE_SPARSE_BINDING_BIT) != 0;
   Limits& limits = device->limits_;
   limits.min_storage_alignment = std::max<VkDeviceSize>(properties.limits.minStorageBufferOffsetAlignment, 16);
-  limits.max_image_side = std::min(properties.limits.maxImageDimension2D,
-                                   std::min(properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight));
+  limits.max_image_side =
+      std::min(properties.limits.maxImageDimension2D,
+               std::min(properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight));
   limits.sparse_address_bytes = properties.limits.sparseAddressSpaceSize;
   limits.max_image_layers = std::min(properties.limits.maxImageArrayLayers, properties.limits.maxFramebufferLayers);
   limits.max_draw_indirect_count = properties.limits.maxDrawIndirectCount;
-  if (families[desc.queue_family].timestampValidBits > 0) limits.timestamp_period_ns = properties.limits.timestampPeriod;
+  if (families[desc.queue_family].timestampValidBits > 0)
+    limits.timestamp_period_ns = properties.limits.timestampPeriod;
 
   VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   cache.initialDataSize = desc.pipeline_cache.size();
   cache.pInitialData = desc.pipeline_cache.data();
-  const VkResult result = vk.vkCreatePipelineCache(desc.device, &cache, desc.allocation_callbacks, &device->pipeline_cache_);
+  const VkResult result =
+      vk.vkCreatePipelineCache(desc.device, &cache, desc.allocation_callbacks, &device->pipeline_cache_);
   if (result != VK_SUCCESS) return vulkan_error(result, "vkCreatePipelineCache", "");
   return device;
 }
@@ -89,10 +109,12 @@ Device::~Device() {
   if (pipeline_cache_) functions_.vkDestroyPipelineCache(desc_.device, pipeline_cache_, desc_.allocation_callbacks);
 }
 
-std::optional<VkExtent2D> sparse_page(const Functions& vk, VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage) {
+std::optional<VkExtent2D> sparse_page(const Functions& vk, VkPhysicalDevice physical, VkFormat format,
+                                      VkImageUsageFlags usage) {
   uint32_t count = 0;
   const auto ask = [&](VkSparseImageFormatProperties* out) {
-    vk.vkGetPhysicalDeviceSparseImageFormatProperties(physical, format, VK_IMAGE_TYPE_2D, VK_SAMPLE_COUNT_1_BIT, usage, VK_IMAGE_TILING_OPTIMAL, &count, out);
+    vk.vkGetPhysicalDeviceSparseImageFormatProperties(physical, format, VK_IMAGE_TYPE_2D, VK_SAMPLE_COUNT_1_BIT, usage,
+                                                      VK_IMAGE_TILING_OPTIMAL, &count, out);
   };
   ask(nullptr);
   std::vector<VkSparseImageFormatProperties> parts(count);
@@ -106,7 +128,8 @@ std::optional<VkExtent2D> sparse_page(const Functions& vk, VkPhysicalDevice phys
 VkImageFormatProperties Device::sparse_image_limits(VkFormat format, VkImageUsageFlags usage) const {
   VkImageFormatProperties limits{};
   const VkImageCreateFlags flags = VK_IMAGE_CREATE_SPARSE_BINDING_BIT | VK_IMAGE_CREATE_SPARSE_RESIDENCY_BIT;
-  const VkResult result = functions_.vkGetPhysicalDeviceImageFormatProperties(desc_.physical_device, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &limits);
+  const VkResult result = functions_.vkGetPhysicalDeviceImageFormatProperties(
+      desc_.physical_device, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &limits);
   return result == VK_SUCCESS ? limits : VkImageFormatProperties{};
 }
 

@@ -4,8 +4,8 @@
 namespace umbrage::gpu {
 
 const char* Functions::load_instance(VkInstance instance, PFN_vkGetInstanceProcAddr get) {
-#define UMB_LOAD(name)                                                 \
-  name = reinterpret_cast<PFN_##name>(get(instance, #name));           \
+#define UMB_LOAD(name)                                       \
+  name = reinterpret_cast<PFN_##name>(get(instance, #name)); \
   if (!(name)) return #name;
   UMB_INSTANCE_FUNCTIONS(UMB_LOAD)
 #undef UMB_LOAD
@@ -13,16 +13,12 @@ const char* Functions::load_instance(VkInstance instance, PFN_vkGetInstanceProcA
 }
 
 const char* Functions::load_device(VkDevice device, bool debug_utils, bool mesh_shader) {
-#define UMB_LOAD(name)                                                          \
-  name = reinterpret_cast<PFN_##name>(vkGetDeviceProcAddr(device, #name));      \
+#define UMB_LOAD(name)                                                     \
+  name = reinterpret_cast<PFN_##name>(vkGetDeviceProcAddr(device, #name)); \
   if (!(name)) return #name;
   UMB_DEVICE_FUNCTIONS(UMB_LOAD)
-  if (mesh_shader) {
-    UMB_MESH_FUNCTIONS(UMB_LOAD)
-  }
-  if (debug_utils) {
-    UMB_DEBUG_FUNCTIONS(UMB_LOAD)
-  }
+  if (mesh_shader) { UMB_MESH_FUNCTIONS(UMB_LOAD) }
+  if (debug_utils) { UMB_DEBUG_FUNCTIONS(UMB_LOAD) }
 #undef UMB_LOAD
   return nullptr;
 }

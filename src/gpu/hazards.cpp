@@ -24,7 +24,7 @@ bool ordered(const HazardLog& log, size_t from, size_t to) {
   const VkAccessFlags2 a_writes = from_layout ? 0 : a.writes ? a.access & kWrites : 0;
   const bool needs_memory = from_layout || a.writes;
   if (to_layout) return (b.stages & a_stages) == a_stages && (b.access & a_writes) == a_writes;
-  VkPipelineStageFlags2 execution = from_layout ? a.dst_stages : 0;   // stages of b that wait for a
+  VkPipelineStageFlags2 execution = from_layout ? a.dst_stages : 0;  // stages of b that wait for a
   VkAccessFlags2 visible = from_layout ? a.dst_access : 0;
   for (size_t i = from + 1; i < to; ++i) {
     const HazardEvent& barrier = log[i];
@@ -37,8 +37,12 @@ bool ordered(const HazardLog& log, size_t from, size_t to) {
   return !needs_memory || (visible & b.access) == b.access;
 }
 
-std::string does(const HazardEvent& event) { return changes_layout(event) ? " changes the layout of " : event.writes ? " writes " : " reads "; }
-std::string did(const HazardEvent& event) { return changes_layout(event) ? " changed its layout" : event.writes ? " wrote it" : " read it"; }
+std::string does(const HazardEvent& event) {
+  return changes_layout(event) ? " changes the layout of " : event.writes ? " writes " : " reads ";
+}
+std::string did(const HazardEvent& event) {
+  return changes_layout(event) ? " changed its layout" : event.writes ? " wrote it" : " read it";
+}
 }  // namespace
 
 std::vector<Hazard> find_hazards(const HazardLog& log) {
@@ -63,7 +67,8 @@ std::vector<Hazard> find_hazards(const HazardLog& log) {
       if (then.pass_number == now.pass_number && !changes_layout(then)) continue;
       if (!then_changes && !now.writes && !now_layout) continue;
       if (!ordered(log, history.uses[k], i))
-        hazards.push_back({std::string(now.pass) + does(now) + now.resource_name + " after " + then.pass + did(then) + ", unordered"});
+        hazards.push_back({std::string(now.pass) + does(now) + now.resource_name + " after " + then.pass + did(then) +
+                           ", unordered"});
       if (then_changes) break;  // whatever came earlier is ordered before that write, or was reported there
     }
     history.uses.push_back(i);

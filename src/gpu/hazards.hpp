@@ -12,12 +12,12 @@ namespace umbrage::gpu {
 struct HazardEvent {
   enum class Kind : uint8_t { access, barrier };
   Kind kind = Kind::access;
-  uint64_t resource = 0;            ///< SyncState::resource of a buffer or image.
+  uint64_t resource = 0;  ///< SyncState::resource of a buffer or image.
   const char* resource_name = "";
   const char* pass = "";
-  uint32_t pass_number = 0;         ///< Tells passes of the same name apart.
-  bool writes = false;              ///< access: writes (and may read).
-  VkPipelineStageFlags2 stages = 0, dst_stages = 0;   ///< access: its stages; barrier: source and destination.
+  uint32_t pass_number = 0;                          ///< Tells passes of the same name apart.
+  bool writes = false;                               ///< access: writes (and may read).
+  VkPipelineStageFlags2 stages = 0, dst_stages = 0;  ///< access: its stages; barrier: source and destination.
   VkAccessFlags2 access = 0, dst_access = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;      ///< Images: that the access needs, or the barrier makes.
   VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< barrier: UNDEFINED gives up the content.

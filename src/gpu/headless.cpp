@@ -43,34 +43,43 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 VkBool32 VKAPI_PTR on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-  const Severity level = (severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) ? Severity::error : Severity::warning;
+  const Severity level =
+      (severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) ? Severity::error : Severity::warning;
   const auto* target = static_cast<const MessageTarget*>(user);
   if (target->message) target->message(target->user, level, data->pMessage);
   return VK_FALSE;
 }
 
 Result<void> check_layer(PFN_vkGetInstanceProcAddr get) {
-  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(get(nullptr, "vkEnumerateInstanceLayerProperties"));
+  const auto enumerate =
+      reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(get(nullptr, "vkEnumerateInstanceLayerProperties"));
   uint32_t count = 0;
   if (enumerate) enumerate(&count, nullptr);
   std::vector<VkLayerProperties> layers(count);
   if (enumerate && enumerate(&count, layers.data()) != VK_SUCCESS) count = 0;
-  const bool found = std::any_of(layers.begin(), layers.begin() + count, [](const auto& l) { return std::strcmp(l.layerName, kValidationLayer) == 0; });
+  const bool found = std::any_of(layers.begin(), layers.begin() + count,
+                                 [](const auto& l) { return std::strcmp(l.layerName, kValidationLayer) == 0; });
   if (found) return {};
-  return Error{ErrorCode::unsupported, std::string(kValidationLayer) + " is not installed (Debian: vulkan-validationlayers)"};
+  return Error{ErrorCode::unsupported,
+               std::string(kValidationLayer) + " is not installed (Debian: vulkan-validationlayers)"};
 }
 
 int rank(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    default: return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    default:
+      return 3;
   }
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -81,9 +90,11 @@ Result<VkPhysicalDevice> choose(const gpu::Functions& vk, VkInstance instance, c
   if (result != VK_SUCCESS) return gpu::vulkan_error(result, "vkEnumeratePhysicalDevices", "");
   std::vector<VkPhysicalDevice> devices(count);
   result = vk.vkEnumeratePhysicalDevices(instance, &count, devices.data());
-  if (result != VK_SUCCESS && result != VK_INCOMPLETE) return gpu::vulkan_error(result, "vkEnumeratePhysicalDevices", "");
+  if (result != VK_SUCCESS && result != VK_INCOMPLETE)
+    return gpu::vulkan_error(result, "vkEnumeratePhysicalDevices", "");
   devices.resize(count);
-  if (devices.empty()) return Error{ErrorCode::unsupported, "no Vulkan device found (Debian: mesa-vulkan-drivers has one in software)"};
+  if (devices.empty())
+    return Error{ErrorCode::unsupported, "no Vulkan device found (Debian: mesa-vulkan-drivers has one in software)"};
 
   std::string names, last_reason;
   VkPhysicalDevice best = VK_NULL_HANDLE;
@@ -93,12 +104,17 @@ Result<VkPhysicalDevice> choose(const gpu::Functions& vk, VkInstance instance, c
     vk.vkGetPhysicalDeviceProperties(devices[i], &properties);
     names += (i ? ", " : "") + std::to_string(i) + " " + properties.deviceName;
     if (!desc.device.empty() && desc.device != std::to_string(i) &&
-        lower(properties.deviceName).find(lower(desc.device)) == std::string::npos) continue;
+        lower(properties.deviceName).find(lower(desc.device)) == std::string::npos)
+      continue;
     auto needs = requirements(instance, devices[i], desc.get_instance_proc_addr);
-    if (!needs) { last_reason = needs.error().message; continue; }
+    if (!needs) {
+      last_reason = needs.error().message;
+      continue;
+    }
     if (!needs->supported) {
       for (const RequirementCheck& check : needs->checks)
-        if (check.required && !check.supported) last_reason = std::string(properties.deviceName) + " lacks " + std::string(check.name);
+        if (check.required && !check.supported)
+          last_reason = std::string(properties.deviceName) + " lacks " + std::string(check.name);
       continue;
     }
     if (rank(properties.deviceType) < best_rank) best = devices[i], best_rank = rank(properties.deviceType);
@@ -121,8 +137,8 @@ void merge(Features& into, const Features& more, size_t first) {
 }
 
 /// Capabilities that are wanted, where the device has them.
-void enable_wanted(const Capabilities& wanted, Requirements& needs, Capabilities& enabled, VkPhysicalDeviceMeshShaderFeaturesEXT& mesh,
-                   std::vector<const char*>& extensions) {
+void enable_wanted(const Capabilities& wanted, Requirements& needs, Capabilities& enabled,
+                   VkPhysicalDeviceMeshShaderFeaturesEXT& mesh, std::vector<const char*>& extensions) {
   enabled.geometry_shader = wanted.geometry_shader && needs.available.geometry_shader;
   enabled.vertex_layer = wanted.vertex_layer && needs.available.vertex_layer;
   enabled.multiview = wanted.multiview && needs.available.multiview;
@@ -173,7 +189,8 @@ Result<InstanceMade> make_instance(const HeadlessDesc& desc) {
 }  // namespace
 
 Result<HeadlessDevice> HeadlessDevice::create(const HeadlessDesc& desc) {
-  if (!desc.get_instance_proc_addr) return Error{ErrorCode::invalid_argument, "HeadlessDesc: get_instance_proc_addr is needed"};
+  if (!desc.get_instance_proc_addr)
+    return Error{ErrorCode::invalid_argument, "HeadlessDesc: get_instance_proc_addr is needed"};
   auto state = std::make_unique<State>();
   state->get = desc.get_instance_proc_addr;
   auto made = make_instance(desc);
@@ -184,12 +201,16 @@ Result<HeadlessDevice> HeadlessDevice::create(const HeadlessDesc& desc) {
     return Error{ErrorCode::unsupported, std::string("the instance does not offer ") + missing};
 
   if (desc.validate) {
-    const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(state->get(state->instance, "vkCreateDebugUtilsMessengerEXT"));
-    state->destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(state->get(state->instance, "vkDestroyDebugUtilsMessengerEXT"));
-    if (!create_messenger || !state->destroy_messenger) return Error{ErrorCode::unsupported, "VK_EXT_debug_utils lacks its functions"};
+    const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        state->get(state->instance, "vkCreateDebugUtilsMessengerEXT"));
+    state->destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        state->get(state->instance, "vkDestroyDebugUtilsMessengerEXT"));
+    if (!create_messenger || !state->destroy_messenger)
+      return Error{ErrorCode::unsupported, "VK_EXT_debug_utils lacks its functions"};
     state->messages = {desc.message, desc.message_user};
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
-    info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = on_message;
     info.pUserData = &state->messages;
@@ -210,8 +231,10 @@ Result<HeadlessDevice> HeadlessDevice::create(const HeadlessDesc& desc) {
   std::vector<VkQueueFamilyProperties> families(family_count);
   vk.vkGetPhysicalDeviceQueueFamilyProperties(state->physical, &family_count, families.data());
   const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  const auto family = std::find_if(families.begin(), families.end(), [both](const auto& f) { return (f.queueFlags & both) == both; });
-  if (family == families.end()) return Error{ErrorCode::unsupported, state->name + ": no queue with graphics and compute"};
+  const auto family =
+      std::find_if(families.begin(), families.end(), [both](const auto& f) { return (f.queueFlags & both) == both; });
+  if (family == families.end())
+    return Error{ErrorCode::unsupported, state->name + ": no queue with graphics and compute"};
   state->family = static_cast<uint32_t>(family - families.begin());
 
   constexpr size_t kFirst = offsetof(VkPhysicalDeviceVulkan12Features, samplerMirrorClampToEdge);
@@ -253,8 +276,12 @@ HeadlessDevice& HeadlessDevice::operator=(HeadlessDevice&&) noexcept = default;
 HeadlessDevice::~HeadlessDevice() = default;
 
 DeviceDesc HeadlessDevice::desc() const {
-  return {.instance = state_->instance, .physical_device = state_->physical, .device = state_->device,
-          .get_instance_proc_addr = state_->get, .queue_family = state_->family, .enabled = state_->enabled};
+  return {.instance = state_->instance,
+          .physical_device = state_->physical,
+          .device = state_->device,
+          .get_instance_proc_addr = state_->get,
+          .queue_family = state_->family,
+          .enabled = state_->enabled};
 }
 VkQueue HeadlessDevice::queue() const { return state_->queue; }
 std::string_view HeadlessDevice::name() const { return state_->name; }

@@ -37,7 +37,8 @@ Result<uint32_t> Memory::add_block(VkDeviceSize size, uint32_t type, MemoryKind 
   info.memoryTypeIndex = type;
   Block block{.size = size, .type = type, .kind = kind, .free = {{0, size}}};
   VkResult result = device_.vk().vkAllocateMemory(device_.handle(), &info, device_.callbacks(), &block.memory);
-  if (result != VK_SUCCESS) return vulkan_error(result, "vkAllocateMemory", std::to_string(size) + " bytes for " + std::string(what));
+  if (result != VK_SUCCESS)
+    return vulkan_error(result, "vkAllocateMemory", std::to_string(size) + " bytes for " + std::string(what));
   if (kind != MemoryKind::device) {
     void* mapped = nullptr;
     result = device_.vk().vkMapMemory(device_.handle(), block.memory, 0, VK_WHOLE_SIZE, 0, &mapped);
@@ -49,8 +50,10 @@ Result<uint32_t> Memory::add_block(VkDeviceSize size, uint32_t type, MemoryKind 
   }
   const auto empty = std::find_if(blocks_.begin(), blocks_.end(), [](const Block& b) { return !b.memory; });
   const auto index = static_cast<uint32_t>(empty - blocks_.begin());
-  if (empty == blocks_.end()) blocks_.push_back(std::move(block));
-  else *empty = std::move(block);
+  if (empty == blocks_.end())
+    blocks_.push_back(std::move(block));
+  else
+    *empty = std::move(block);
   return index;
 }
 
@@ -81,7 +84,8 @@ bool Memory::take(uint32_t index, VkDeviceSize size, VkDeviceSize alignment, All
   return false;
 }
 
-Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryKind kind, std::string_view what, bool own_block) {
+Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryKind kind, std::string_view what,
+                                    bool own_block) {
   constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   const int type = kind == MemoryKind::device
                        ? device_.memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
@@ -125,7 +129,8 @@ void Memory::release(uint32_t index, VkDeviceSize offset, VkDeviceSize size) {
   }
 }
 
-Result<void> grow(Buffer& target, const Device& device, Memory& memory, VkDeviceSize bytes, const char* name, std::vector<Buffer>& retired) {
+Result<void> grow(Buffer& target, const Device& device, Memory& memory, VkDeviceSize bytes, const char* name,
+                  std::vector<Buffer>& retired) {
   if (target && target.size() >= bytes) return {};
   auto made = Buffer::create(device, memory, std::max<VkDeviceSize>(bytes, 16), MemoryKind::device, name);
   if (!made) return made.error();
@@ -134,12 +139,14 @@ Result<void> grow(Buffer& target, const Device& device, Memory& memory, VkDevice
   return {};
 }
 
-Result<Buffer> Buffer::create(const Device& device, Memory& memory, VkDeviceSize size, MemoryKind kind, const char* name) {
+Result<Buffer> Buffer::create(const Device& device, Memory& memory, VkDeviceSize size, MemoryKind kind,
+                              const char* name) {
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = align_up(std::max<VkDeviceSize>(size, 16), 16);
   info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
-               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-               VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
   Buffer buffer;
   VkResult result = device.vk().vkCreateBuffer(device.handle(), &info, device.callbacks(), &buffer.handle_);
   if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateBuffer", name);
@@ -152,7 +159,8 @@ Result<Buffer> Buffer::create(const Device& device, Memory& memory, VkDeviceSize
   auto allocation = memory.allocate(needs, kind, name);
   if (!allocation) return allocation.error();
   buffer.allocation_ = std::move(*allocation);
-  result = device.vk().vkBindBufferMemory(device.handle(), buffer.handle_, buffer.allocation_.memory, buffer.allocation_.offset);
+  result = device.vk().vkBindBufferMemory(device.handle(), buffer.handle_, buffer.allocation_.memory,
+                                          buffer.allocation_.offset);
   if (result != VK_SUCCESS) return vulkan_error(result, "vkBindBufferMemory", name);
   VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
   address.buffer = buffer.handle_;

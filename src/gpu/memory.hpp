@@ -25,10 +25,10 @@ struct SyncState {
   };
   VkPipelineStageFlags2 write_stages = 0, read_stages = 0;  ///< Of the last write and of the reads since.
   VkAccessFlags2 write_access = 0;
-  std::array<Visible, 8> visible{};                         ///< To what the last write has been made visible.
+  std::array<Visible, 8> visible{};  ///< To what the last write has been made visible.
   uint32_t visible_count = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  uint64_t resource = 0;                                    ///< Its name in the hazard log; handles are used again.
+  uint64_t resource = 0;  ///< Its name in the hazard log; handles are used again.
 };
 
 class Memory;
@@ -63,14 +63,16 @@ class Memory {
 
  private:
   friend class Allocation;
-  struct Range { VkDeviceSize offset, size; };
+  struct Range {
+    VkDeviceSize offset, size;
+  };
   struct Block {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize size = 0;
     std::byte* mapped = nullptr;
     uint32_t type = 0;
     MemoryKind kind = MemoryKind::device;
-    bool shared = true;  ///< Holds more than one allocation.
+    bool shared = true;       ///< Holds more than one allocation.
     std::vector<Range> free;  ///< Sorted by offset, never adjacent.
   };
   void release(uint32_t block, VkDeviceSize offset, VkDeviceSize size);
@@ -108,6 +110,7 @@ class Buffer {
 };
 
 /// Replaces `target` by a larger buffer if it has fewer than `bytes`; the former one goes to `retired`. Contents are lost.
-Result<void> grow(Buffer& target, const Device&, Memory&, VkDeviceSize bytes, const char* name, std::vector<Buffer>& retired);
+Result<void> grow(Buffer& target, const Device&, Memory&, VkDeviceSize bytes, const char* name,
+                  std::vector<Buffer>& retired);
 
 }  // namespace umbrage::gpu

@@ -10,7 +10,8 @@ namespace {
 struct Specialization {
   explicit Specialization(std::initializer_list<Constant> constants) {
     for (const Constant& constant : constants) {
-      entries[info.mapEntryCount] = {constant.id, static_cast<uint32_t>(info.mapEntryCount * sizeof(uint32_t)), sizeof(uint32_t)};
+      entries[info.mapEntryCount] = {constant.id, static_cast<uint32_t>(info.mapEntryCount * sizeof(uint32_t)),
+                                     sizeof(uint32_t)};
       values[info.mapEntryCount++] = constant.value;
     }
     info.pMapEntries = entries.data();
@@ -32,13 +33,15 @@ Pipeline::~Pipeline() {
   if (handle_) device_->vk().vkDestroyPipeline(device_->handle(), handle_, device_->callbacks());
 }
 
-Result<std::unique_ptr<PipelineFactory>> PipelineFactory::create(const Device& device, uint32_t max_masks, uint32_t storage_images) {
+Result<std::unique_ptr<PipelineFactory>> PipelineFactory::create(const Device& device, uint32_t max_masks,
+                                                                 uint32_t storage_images) {
   std::unique_ptr<PipelineFactory> factory(new PipelineFactory(device));
   const Functions& vk = device.vk();
-  const std::array<VkDescriptorSetLayoutBinding, 3> images{{
-      {0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},   // host's depth
-      {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},   // host's normals
-      {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, storage_images, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+  const std::array<VkDescriptorSetLayoutBinding, 3> images{
+      {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},  // host's depth
+       {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},  // host's normals
+       {2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, storage_images, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+        nullptr}}};
   constexpr VkDescriptorBindingFlags kPartly = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
   const std::array<VkDescriptorBindingFlags, 3> image_flags{0, kPartly, kPartly};
   VkDescriptorSetLayoutBindingFlagsCreateInfo flags{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
@@ -64,7 +67,8 @@ Result<std::unique_ptr<PipelineFactory>> PipelineFactory::create(const Device& d
   if (result != VK_SUCCESS) return vulkan_error(result, "vkCreateDescriptorSetLayout", "masks");
 
   const std::array<VkDescriptorSetLayout, 2> sets{factory->frame_set_, factory->mask_set_};
-  const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, kPushBytes};
+  const VkPushConstantRange push{
+      VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, kPushBytes};
   VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
   layout.setLayoutCount = static_cast<uint32_t>(sets.size());
   layout.pSetLayouts = sets.data();
@@ -129,11 +133,24 @@ Result<Pipeline> PipelineFactory::depth(const DepthShaders& shaders, const char*
   }
   const Specialization specialization(constants);
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-  stages[0] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_VERTEX_BIT, *vertex, "main", &specialization.info};
-  stages[1] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_FRAGMENT_BIT, fragment, "main", &specialization.info};
+  stages[0] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+               nullptr,
+               0,
+               VK_SHADER_STAGE_VERTEX_BIT,
+               *vertex,
+               "main",
+               &specialization.info};
+  stages[1] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+               nullptr,
+               0,
+               VK_SHADER_STAGE_FRAGMENT_BIT,
+               fragment,
+               "main",
+               &specialization.info};
   const VkVertexInputBindingDescription binding{0, shaders.instance_stride_bytes, VK_VERTEX_INPUT_RATE_INSTANCE};
   std::array<VkVertexInputAttributeDescription, 12> attributes{};
-  for (uint32_t i = 0; i < shaders.instance_attributes.size(); ++i) attributes[i] = {i, 0, shaders.instance_attributes[i], 16 * i};
+  for (uint32_t i = 0; i < shaders.instance_attributes.size(); ++i)
+    attributes[i] = {i, 0, shaders.instance_attributes[i], 16 * i};
   VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   vertices.vertexBindingDescriptionCount = shaders.instance_attributes.empty() ? 0 : 1;
   vertices.pVertexBindingDescriptions = &binding;

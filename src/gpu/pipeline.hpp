@@ -38,17 +38,20 @@ struct DepthShaders {
   /// Instance attributes of binding 0, at locations 0, 1, …, 16 bytes each.
   std::span<const VkFormat> instance_attributes;
   uint32_t instance_stride_bytes = 0;
-  VkFormat attachment = VK_FORMAT_D32_SFLOAT;  ///< UNDEFINED: the fragment shader writes where it likes, and there is no depth test.
+  VkFormat attachment =
+      VK_FORMAT_D32_SFLOAT;  ///< UNDEFINED: the fragment shader writes where it likes, and there is no depth test.
   VkCompareOp compare = VK_COMPARE_OP_GREATER;
 };
 
 /// Owns descriptor set layouts and the pipeline layout. Set 0: per-frame images, and those that shaders write; set 1: masks.
 class PipelineFactory {
  public:
-  static Result<std::unique_ptr<PipelineFactory>> create(const Device&, uint32_t max_masks, uint32_t storage_images = 0);
+  static Result<std::unique_ptr<PipelineFactory>> create(const Device&, uint32_t max_masks,
+                                                         uint32_t storage_images = 0);
   ~PipelineFactory();
   PipelineFactory(const PipelineFactory&) = delete;
-  Result<Pipeline> compute(std::span<const uint32_t> spirv, const char* name, std::initializer_list<Constant> = {}) const;
+  Result<Pipeline> compute(std::span<const uint32_t> spirv, const char* name,
+                           std::initializer_list<Constant> = {}) const;
   Result<Pipeline> depth(const DepthShaders&, const char* name, std::initializer_list<Constant> = {}) const;
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSetLayout frame_set_layout() const { return frame_set_; }

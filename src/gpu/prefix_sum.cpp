@@ -17,12 +17,18 @@ constexpr uint32_t kBlocks[] =
 constexpr uint32_t kItems[] =
 #include "shaders/scan_items.comp.inc"
     ;
-constexpr uint32_t blocks_of(uint32_t count) { return std::max((count + shared::ScanBlock - 1) / shared::ScanBlock, 1u); }
+constexpr uint32_t blocks_of(uint32_t count) {
+  return std::max((count + shared::ScanBlock - 1) / shared::ScanBlock, 1u);
+}
 }  // namespace
 
 Result<PrefixSum> PrefixSum::create(const PipelineFactory& factory) {
   PrefixSum out;
-  const struct { Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
+  const struct {
+    Pipeline& target;
+    std::span<const uint32_t> spirv;
+    const char* name;
+  } all[] = {
       {out.sum_, kSum, "scan: sum"}, {out.blocks_, kBlocks, "scan: blocks"}, {out.items_, kItems, "scan: items"}};
   for (const auto& entry : all) {
     auto made = factory.compute(entry.spirv, entry.name);
@@ -42,17 +48,18 @@ Result<void> PrefixSum::reserve(const Device& device, Memory& memory, uint32_t c
   return {};
 }
 
-void PrefixSum::record(Recorder& recorder, const Buffer& values, uint32_t count, const Buffer& total, VkDeviceSize total_offset) {
+void PrefixSum::record(Recorder& recorder, const Buffer& values, uint32_t count, const Buffer& total,
+                       VkDeviceSize total_offset) {
   record(recorder, values, nullptr, count, total, total_offset);
 }
 
-void PrefixSum::record(Recorder& recorder, const Buffer& values, const DeviceCount& counted, uint32_t capacity, const Buffer& total,
-                       VkDeviceSize total_offset) {
+void PrefixSum::record(Recorder& recorder, const Buffer& values, const DeviceCount& counted, uint32_t capacity,
+                       const Buffer& total, VkDeviceSize total_offset) {
   record(recorder, values, &counted, capacity, total, total_offset);
 }
 
-void PrefixSum::record(Recorder& recorder, const Buffer& values, const DeviceCount* counted, uint32_t capacity, const Buffer& total,
-                       VkDeviceSize total_offset) {
+void PrefixSum::record(Recorder& recorder, const Buffer& values, const DeviceCount* counted, uint32_t capacity,
+                       const Buffer& total, VkDeviceSize total_offset) {
   const uint32_t blocks = blocks_of(capacity);
   shared::ScanPush push{.count = capacity};
   const auto read_count = [&](Pass& pass) {

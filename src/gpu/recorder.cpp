@@ -23,22 +23,45 @@ struct Barrier {
 namespace {
 AccessInfo info_of(Access access) {
   switch (access) {
-    case Access::compute_read: return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
-    case Access::compute_write: return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL, true};
-    case Access::vertex_read: return {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
-    case Access::geometry_read: return {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
-    case Access::vertex_attribute_read: return {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
-    case Access::fragment_read: return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
-    case Access::fragment_write: return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL, true};
-    case Access::indirect_read: return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
-    case Access::index_read: return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
-    case Access::transfer_read: return {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, false};
-    case Access::transfer_write: return {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true};
+    case Access::compute_read:
+      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+              VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
+    case Access::compute_write:
+      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL,
+              true};
+    case Access::vertex_read:
+      return {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+              VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
+    case Access::geometry_read:
+      return {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+              VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
+    case Access::vertex_attribute_read:
+      return {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT,
+              VK_IMAGE_LAYOUT_UNDEFINED, false};
+    case Access::fragment_read:
+      return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+              VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, false};
+    case Access::fragment_write:
+      return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL,
+              true};
+    case Access::indirect_read:
+      return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+              false};
+    case Access::index_read:
+      return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
+    case Access::transfer_read:
+      return {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, false};
+    case Access::transfer_write:
+      return {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true};
     case Access::depth_attachment:
       return {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
               VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
               VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true};
-    case Access::host_read: return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
+    case Access::host_read:
+      return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false};
   }
   return {};
 }
@@ -69,7 +92,8 @@ Barrier advance(SyncState& state, const AccessInfo& now, bool is_image) {
   }
   if (now.writes) return barrier;
   // When there is no room left to remember, a later read has one barrier too many.
-  if (barrier.needed && state.visible_count < state.visible.size()) state.visible[state.visible_count++] = {now.stages, now.access};
+  if (barrier.needed && state.visible_count < state.visible.size())
+    state.visible[state.visible_count++] = {now.stages, now.access};
   state.read_stages |= now.stages;
   return barrier;
 }
@@ -188,11 +212,14 @@ void Pass::dispatch_indirect_bound(const Buffer& arguments, VkDeviceSize offset)
   recorder_.device_.vk().vkCmdDispatchIndirect(recorder_.commands_, arguments.handle(), offset);
 }
 
-void Recorder::publish(std::span<const Buffer* const> buffers, std::span<const Image* const> images, VkPipelineStageFlags2 stages) {
+void Recorder::publish(std::span<const Buffer* const> buffers, std::span<const Image* const> images,
+                       VkPipelineStageFlags2 stages) {
   Pass shown = pass("publish");
-  for (const Buffer* buffer : buffers) shown.declare(*buffer, {stages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false});
+  for (const Buffer* buffer : buffers)
+    shown.declare(*buffer, {stages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, false});
   for (const Image* image : images)
-    shown.declare(*image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, layout_of(*image, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL), false});
+    shown.declare(*image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                           layout_of(*image, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL), false});
   shown.flush();
 }
 
@@ -206,7 +233,8 @@ Scope::Scope(Recorder& recorder, const char* name) : recorder_(recorder) {
 }
 
 Scope::~Scope() {
-  if (recorder_.device_.vk().vkCmdEndDebugUtilsLabelEXT) recorder_.device_.vk().vkCmdEndDebugUtilsLabelEXT(recorder_.commands_);
+  if (recorder_.device_.vk().vkCmdEndDebugUtilsLabelEXT)
+    recorder_.device_.vk().vkCmdEndDebugUtilsLabelEXT(recorder_.commands_);
   if (recorder_.timers_) recorder_.timers_->end(recorder_.commands_);
 }
 

@@ -13,12 +13,17 @@
 namespace umbrage::gpu {
 
 enum class Access : uint8_t {
-  compute_read, compute_write,  // write: reads and writes
-  vertex_read, vertex_attribute_read, fragment_read,
-  geometry_read,                // all stages before the rasteriser
-  fragment_write,               // reads and writes
-  indirect_read, index_read,
-  transfer_read, transfer_write,
+  compute_read,
+  compute_write,  // write: reads and writes
+  vertex_read,
+  vertex_attribute_read,
+  fragment_read,
+  geometry_read,   // all stages before the rasteriser
+  fragment_write,  // reads and writes
+  indirect_read,
+  index_read,
+  transfer_read,
+  transfer_write,
   depth_attachment,
   host_read,
 };
@@ -50,7 +55,9 @@ class Pass {
   /// For graphics and transfers: flushes the barriers and hands out the command buffer.
   VkCommandBuffer commands();
   template <class Push>
-  void bind_graphics(const Pipeline& pipeline, const Push& push) { bind(pipeline, &push, sizeof(Push)); }
+  void bind_graphics(const Pipeline& pipeline, const Push& push) {
+    bind(pipeline, &push, sizeof(Push));
+  }
 
  private:
   friend class Recorder;
@@ -87,7 +94,12 @@ class Recorder {
   /// frame_set and mask_set are bound for compute and graphics whenever a pipeline is bound.
   Recorder(const Device& device, const PipelineFactory& factory, VkCommandBuffer commands, FrameTimers* timers,
            VkDescriptorSet frame_set, VkDescriptorSet mask_set, HazardLog* log)
-      : device_(device), factory_(factory), commands_(commands), timers_(timers), sets_{frame_set, mask_set}, log_(log) {}
+      : device_(device),
+        factory_(factory),
+        commands_(commands),
+        timers_(timers),
+        sets_{frame_set, mask_set},
+        log_(log) {}
   Pass pass(const char* name) { return {*this, name}; }
   /// From the next pipeline on.
   void use_frame_set(VkDescriptorSet set) {

@@ -30,8 +30,8 @@ struct Supported {
 
 void list_features(Table& table, const Supported& has) {
   Requirements& out = table.out;
-#define UMB_NEED(source, target, feature, purpose)                  \
-  table.require(has.source feature, #feature, purpose);             \
+#define UMB_NEED(source, target, feature, purpose)      \
+  table.require(has.source feature, #feature, purpose); \
   out.target feature = VK_TRUE;
   UMB_NEED(base.features., features.features., shaderInt64, "buffer addresses in shaders")
   UMB_NEED(base.features., features.features., multiDrawIndirect, "one draw for all shadow casters")
@@ -56,36 +56,48 @@ void list_features(Table& table, const Supported& has) {
 /// What a store needs of the optional features.
 Capabilities needs(const StaticSettings& settings) {
   const bool sparse = settings.store == Store::hardware_sparse;
-  return {.vertex_layer = settings.store == Store::physical_pool || (sparse && settings.sparse_texels == SparseTexels::depth16), .sparse_residency = sparse};
+  return {.vertex_layer =
+              settings.store == Store::physical_pool || (sparse && settings.sparse_texels == SparseTexels::depth16),
+          .sparse_residency = sparse};
 }
 
 void require_sparse_images(Table& table, const gpu::Functions& vk, VkPhysicalDevice physical, SparseTexels texels) {
   constexpr std::string_view purpose = "hardware sparse store, O13";
-  const bool words = gpu::sparse_page(vk, physical, VK_FORMAT_R32_UINT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT).has_value();
-  const bool depth = gpu::sparse_page(vk, physical, VK_FORMAT_D16_UNORM, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT).has_value();
+  const bool words =
+      gpu::sparse_page(vk, physical, VK_FORMAT_R32_UINT, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT)
+          .has_value();
+  const bool depth = gpu::sparse_page(vk, physical, VK_FORMAT_D16_UNORM,
+                                      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)
+                         .has_value();
   if (texels == SparseTexels::words) table.require(words, "sparse R32_UINT storage images", purpose);
   if (texels == SparseTexels::depth16) table.require(depth, "sparse D16_UNORM depth attachments", purpose);
-  if (texels == SparseTexels::automatic) table.require(words || depth, "sparse R32_UINT storage images or D16_UNORM depth attachments", purpose);
+  if (texels == SparseTexels::automatic)
+    table.require(words || depth, "sparse R32_UINT storage images or D16_UNORM depth attachments", purpose);
 }
 
-void list_capabilities(Table& table, const Supported& has, const std::vector<VkExtensionProperties>& extensions, const Capabilities& wanted) {
+void list_capabilities(Table& table, const Supported& has, const std::vector<VkExtensionProperties>& extensions,
+                       const Capabilities& wanted) {
   const auto offers = [&](const char* name) {
-    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
   };
   Capabilities& can = table.out.available;
   table.capability(can.geometry_shader, has.base.features.geometryShader, "geometryShader", "layered rendering, R2");
-  table.capability(can.vertex_layer, has.v12.shaderOutputLayer, "shaderOutputLayer", "physical pool, O12; layered rendering from the vertex shader",
-                   wanted.vertex_layer);
+  table.capability(can.vertex_layer, has.v12.shaderOutputLayer, "shaderOutputLayer",
+                   "physical pool, O12; layered rendering from the vertex shader", wanted.vertex_layer);
   table.capability(can.multiview, has.v11.multiview, "multiview", "layered rendering by multiview");
-  table.capability(can.mesh_shader, offers("VK_EXT_mesh_shader"), "VK_EXT_mesh_shader", "layered rendering by mesh shaders");
-  table.capability(can.sparse_residency, has.base.features.sparseBinding && has.base.features.sparseResidencyImage2D &&
-                                             has.base.features.shaderStorageImageArrayDynamicIndexing &&
-                                             has.v12.shaderStorageImageArrayNonUniformIndexing,
+  table.capability(can.mesh_shader, offers("VK_EXT_mesh_shader"), "VK_EXT_mesh_shader",
+                   "layered rendering by mesh shaders");
+  table.capability(can.sparse_residency,
+                   has.base.features.sparseBinding && has.base.features.sparseResidencyImage2D &&
+                       has.base.features.shaderStorageImageArrayDynamicIndexing &&
+                       has.v12.shaderStorageImageArrayNonUniformIndexing,
                    "sparseResidencyImage2D", "hardware sparse store, O13", wanted.sparse_residency);
   table.capability(can.shader_residency, has.base.features.shaderResourceResidency, "shaderResourceResidency",
                    "hardware sparse store: what is not bound is not written, O15");
   table.capability(can.ray_query, offers("VK_KHR_ray_query"), "VK_KHR_ray_query", "ray-traced shadows");
-  table.capability(can.ray_tracing_pipeline, offers("VK_KHR_ray_tracing_pipeline"), "VK_KHR_ray_tracing_pipeline", "ray-traced shadows");
+  table.capability(can.ray_tracing_pipeline, offers("VK_KHR_ray_tracing_pipeline"), "VK_KHR_ray_tracing_pipeline",
+                   "ray-traced shadows");
 }
 }  // namespace
 
@@ -112,7 +124,8 @@ const void* Requirements::chain() {
 Result<Requirements> requirements(VkInstance instance, VkPhysicalDevice physical, PFN_vkGetInstanceProcAddr get,
                                   const StaticSettings& settings) {
   if (!instance || !physical || !get)
-    return Error{ErrorCode::invalid_argument, "requirements: instance, physical device and vkGetInstanceProcAddr are all needed"};
+    return Error{ErrorCode::invalid_argument,
+                 "requirements: instance, physical device and vkGetInstanceProcAddr are all needed"};
   if (auto valid = validate(Settings{.fixed = settings}); !valid) return valid.error();
   gpu::Functions vk;
   if (const char* missing = vk.load_instance(instance, get))
@@ -133,7 +146,8 @@ Result<Requirements> requirements(VkInstance instance, VkPhysicalDevice physical
   vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
   const VkResult listed = vk.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-  if (listed != VK_SUCCESS && listed != VK_INCOMPLETE) return gpu::vulkan_error(listed, "vkEnumerateDeviceExtensionProperties", device.deviceName);
+  if (listed != VK_SUCCESS && listed != VK_INCOMPLETE)
+    return gpu::vulkan_error(listed, "vkEnumerateDeviceExtensionProperties", device.deviceName);
   extensions.resize(count);
 
   Requirements out{};
@@ -147,15 +161,19 @@ Result<Requirements> requirements(VkInstance instance, VkPhysicalDevice physical
   Table table{out};
   list_features(table, has);
   table.require(device.limits.maxPushConstantsSize >= 128, "maxPushConstantsSize >= 128", "one push struct per shader");
-  table.require(device.limits.maxComputeSharedMemorySize >= 16384, "maxComputeSharedMemorySize >= 16384", "cluster assignment, sorting");
-  table.require(device.limits.maxComputeWorkGroupInvocations >= 256, "maxComputeWorkGroupInvocations >= 256", "traversal");
+  table.require(device.limits.maxComputeSharedMemorySize >= 16384, "maxComputeSharedMemorySize >= 16384",
+                "cluster assignment, sorting");
+  table.require(device.limits.maxComputeWorkGroupInvocations >= 256, "maxComputeWorkGroupInvocations >= 256",
+                "traversal");
   table.require(device.limits.maxClipDistances >= 4, "maxClipDistances >= 4", "views side by side in one depth image");
-  table.require(device.limits.maxDrawIndirectCount >= (1u << 16), "maxDrawIndirectCount >= 65536", "one draw for all shadow casters");
+  table.require(device.limits.maxDrawIndirectCount >= (1u << 16), "maxDrawIndirectCount >= 65536",
+                "one draw for all shadow casters");
   const Capabilities wanted = needs(settings);
   list_capabilities(table, has, extensions, wanted);
   if (settings.store == Store::hardware_sparse) require_sparse_images(table, vk, physical, settings.sparse_texels);
   gpu::enable_capabilities(wanted, out);
-  std::stable_partition(out.checks.begin(), out.checks.end(), [](const RequirementCheck& check) { return check.required; });
+  std::stable_partition(out.checks.begin(), out.checks.end(),
+                        [](const RequirementCheck& check) { return check.required; });
   return out;
 }
 

@@ -47,11 +47,12 @@ void FrameTimers::end(VkCommandBuffer commands) {
 uint32_t FrameTimers::read(std::span<PassTime, kMaxScopes> out) const {
   if (!pool_ || count_ == 0) return 0;
   std::array<uint64_t, 2 * kMaxScopes> ticks{};
-  const VkResult result = device_->vk().vkGetQueryPoolResults(device_->handle(), pool_, 0, 2 * count_, sizeof ticks, ticks.data(),
-                                                              sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  const VkResult result = device_->vk().vkGetQueryPoolResults(device_->handle(), pool_, 0, 2 * count_, sizeof ticks,
+                                                              ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
   if (result != VK_SUCCESS) return 0;
   for (uint32_t i = 0; i < count_; ++i)
-    out[i] = {names_[i], static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * device_->limits().timestamp_period_ns * 1e-6};
+    out[i] = {names_[i],
+              static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * device_->limits().timestamp_period_ns * 1e-6};
   return count_;
 }
 

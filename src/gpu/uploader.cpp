@@ -8,7 +8,8 @@ namespace umbrage::gpu {
 
 Result<void> GrownBuffer::ensure(const Device& device, Memory& memory, VkDeviceSize bytes, const char* name) {
   if (current_ && current_.size() >= bytes) return {};
-  auto made = Buffer::create(device, memory, std::max<VkDeviceSize>({bytes, current_.size() * 2, 4096}), MemoryKind::device, name);
+  auto made = Buffer::create(device, memory, std::max<VkDeviceSize>({bytes, current_.size() * 2, 4096}),
+                             MemoryKind::device, name);
   if (!made) return made.error();
   if (!former_) former_ = std::move(current_);  // else the current one was never filled
   current_ = std::move(*made);
@@ -53,11 +54,13 @@ std::byte* Uploader::stage(VkDeviceSize bytes, VkDeviceAddress* address) {
 
 void Uploader::copy(const Buffer& target, VkDeviceSize offset, const void* data, VkDeviceSize bytes) {
   if (bytes == 0) return;
-  if (runs_.empty() || runs_.back().target != &target) runs_.push_back({&target, static_cast<uint32_t>(regions_.size()), 0});
+  if (runs_.empty() || runs_.back().target != &target)
+    runs_.push_back({&target, static_cast<uint32_t>(regions_.size()), 0});
   Run& run = runs_.back();
   if (run.regions > 0) {
     VkBufferCopy& last = regions_.back();
-    if (last.dstOffset + last.size == offset && last.srcOffset + last.size == used_) {   // right behind it, whatever the size
+    if (last.dstOffset + last.size == offset &&
+        last.srcOffset + last.size == used_) {  // right behind it, whatever the size
       assert(used_ + bytes <= staging_.size());
       std::memcpy(staging_.mapped() + used_, data, bytes);
       last.size += bytes, used_ += bytes;

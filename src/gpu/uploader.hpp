@@ -19,7 +19,12 @@ class RetireQueue {
   }
 
  private:
-  struct Entry { Buffer buffer; Image image; Allocation memory; uint64_t serial; };
+  struct Entry {
+    Buffer buffer;
+    Image image;
+    Allocation memory;
+    uint64_t serial;
+  };
   std::vector<Entry> entries_;
 };
 
@@ -46,7 +51,10 @@ class Uploader {
 
  private:
   /// Consecutive copies into one buffer: one command.
-  struct Run { const Buffer* target; uint32_t first_region, regions; };
+  struct Run {
+    const Buffer* target;
+    uint32_t first_region, regions;
+  };
   Buffer staging_;
   VkDeviceSize used_ = 0;
   std::vector<VkBufferCopy> regions_;

@@ -50,11 +50,22 @@ constexpr uint32_t kFit[] =
 
 Result<Maps> Maps::create(const gpu::PipelineFactory& factory) {
   Maps out;
-  const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
-      {out.request_, kRequest, "request resolutions"}, {out.bucket_, kBucket, "bucket requests"}, {out.place_levels_, kPlaceLevels, "place levels"}, {out.choose_, kChoose, "choose maps"},
-      {out.place_, kPlace, "place maps"}, {out.clear_, kClear, "clear marks"}, {out.mark_, kMark, "mark pages"},
-      {out.mark_blocks_, kMarkBlocks, "mark blocks"}, {out.count_pages_, kCountPages, "count pages"}, {out.count_blocks_, kCountBlocks, "count blocks"},
-      {out.estimate_, kEstimate, "estimate demand"}, {out.fit_, kFit, "fit budget"}};
+  const struct {
+    gpu::Pipeline& target;
+    std::span<const uint32_t> spirv;
+    const char* name;
+  } all[] = {{out.request_, kRequest, "request resolutions"},
+             {out.bucket_, kBucket, "bucket requests"},
+             {out.place_levels_, kPlaceLevels, "place levels"},
+             {out.choose_, kChoose, "choose maps"},
+             {out.place_, kPlace, "place maps"},
+             {out.clear_, kClear, "clear marks"},
+             {out.mark_, kMark, "mark pages"},
+             {out.mark_blocks_, kMarkBlocks, "mark blocks"},
+             {out.count_pages_, kCountPages, "count pages"},
+             {out.count_blocks_, kCountBlocks, "count blocks"},
+             {out.estimate_, kEstimate, "estimate demand"},
+             {out.fit_, kFit, "fit budget"}};
   for (const auto& entry : all) {
     auto made = factory.compute(entry.spirv, entry.name);
     if (!made) return made.error();
@@ -63,20 +74,25 @@ Result<Maps> Maps::create(const gpu::PipelineFactory& factory) {
   return out;
 }
 
-Result<void> Maps::reserve(const gpu::Device& device, gpu::Memory& memory, const Sizes& sizes, std::vector<gpu::Buffer>& retired) {
-  const VkDeviceSize lights = std::max(sizes.light_slots, 1u), cells = VkDeviceSize(sizes.receiver_grid) * sizes.receiver_grid;
-  const struct { gpu::Buffer& target; VkDeviceSize bytes; const char* name; } all[] = {
-      {maps_, sizes.maps * sizeof(shared::MapRecord), "maps"},
-      {light_maps_, lights * sizeof(shared::LightMaps), "maps of lights"},
-      {requests_, lights * sizeof(shared::LightRequest), "requested resolutions"},
-      {level_bounds_, 4 * sizeof(uint32_t) * shared::SunViews * std::max(sizes.suns, 1u), "bounds of levels"},
-      {demand_, lights * (shared::MaxShift + 1) * sizeof(uint32_t), "demand of lights"},
-      {pair_requests_, sizes.pairs * sizeof(uint32_t), "resolutions of pairs"},
-      {pair_maps_, sizes.pairs * sizeof(uint32_t), "maps of pairs"},
-      {page_bits_, sizes.words * sizeof(uint32_t), "page bits"},
-      {page_first_, sizes.words * sizeof(uint32_t), "page places"},
-      {projection_, sizeof(uint32_t) * shared::ProjectionSide * sizes.receiver_views, "projection maps"},
-      {receiver_depth_, sizes.receiver_views * cells * sizeof(uint32_t), "receiver depths"}};
+Result<void> Maps::reserve(const gpu::Device& device, gpu::Memory& memory, const Sizes& sizes,
+                           std::vector<gpu::Buffer>& retired) {
+  const VkDeviceSize lights = std::max(sizes.light_slots, 1u),
+                     cells = VkDeviceSize(sizes.receiver_grid) * sizes.receiver_grid;
+  const struct {
+    gpu::Buffer& target;
+    VkDeviceSize bytes;
+    const char* name;
+  } all[] = {{maps_, sizes.maps * sizeof(shared::MapRecord), "maps"},
+             {light_maps_, lights * sizeof(shared::LightMaps), "maps of lights"},
+             {requests_, lights * sizeof(shared::LightRequest), "requested resolutions"},
+             {level_bounds_, 4 * sizeof(uint32_t) * shared::SunViews * std::max(sizes.suns, 1u), "bounds of levels"},
+             {demand_, lights * (shared::MaxShift + 1) * sizeof(uint32_t), "demand of lights"},
+             {pair_requests_, sizes.pairs * sizeof(uint32_t), "resolutions of pairs"},
+             {pair_maps_, sizes.pairs * sizeof(uint32_t), "maps of pairs"},
+             {page_bits_, sizes.words * sizeof(uint32_t), "page bits"},
+             {page_first_, sizes.words * sizeof(uint32_t), "page places"},
+             {projection_, sizeof(uint32_t) * shared::ProjectionSide * sizes.receiver_views, "projection maps"},
+             {receiver_depth_, sizes.receiver_views * cells * sizeof(uint32_t), "receiver depths"}};
   for (const auto& entry : all)
     if (auto ok = gpu::grow(entry.target, device, memory, entry.bytes, entry.name, retired); !ok) return ok;
   sizes_ = sizes;
@@ -107,14 +123,31 @@ shared::MapsPush Maps::push(const Inputs& in) const {
   if (in.backing.whole_images) flags |= shared::MapsWholeImages;
   if (in.backing.images && !in.backing.whole_images) flags |= shared::MapsSparse;
   if (has_sun_levels(in)) flags |= shared::MapsSunLevels;
-  return {.frame = in.frame.address(), .counters = in.counters.address(), .requests = requests_.address(), .pair_requests = pair_requests_.address(),
-          .pair_clusters = in.clusters.pair_clusters().address(), .used = in.clusters.used_lights().address(), .demand = demand_.address(),
-          .priority = in.scene.light_order_buffer().address(), .views = in.views.address(), .level_bounds = level_bounds_.address(), .flags = flags, .maps_per_light = settings.maps_per_light,
-          .round = 0, .light_slots = in.scene.light_slots(), .capacity_units = in.backing.capacity_units, .word_capacity = sizes_.words,
-          .receiver_capacity = std::min(sizes_.receiver_views, in.backing.most_views), .light_count = in.scene.light_count(), .undersampling = float(settings.undersampling),
-          .min_resolution = settings.layout == MapLayout::levels ? std::max(settings.min_resolution, std::min(settings.merge_below, settings.max_resolution))
-                                                                  : settings.min_resolution, .max_resolution = settings.max_resolution,
-          .backing = in.backing.block.x | in.backing.block.y << 16};
+  return {
+      .frame = in.frame.address(),
+      .counters = in.counters.address(),
+      .requests = requests_.address(),
+      .pair_requests = pair_requests_.address(),
+      .pair_clusters = in.clusters.pair_clusters().address(),
+      .used = in.clusters.used_lights().address(),
+      .demand = demand_.address(),
+      .priority = in.scene.light_order_buffer().address(),
+      .views = in.views.address(),
+      .level_bounds = level_bounds_.address(),
+      .flags = flags,
+      .maps_per_light = settings.maps_per_light,
+      .round = 0,
+      .light_slots = in.scene.light_slots(),
+      .capacity_units = in.backing.capacity_units,
+      .word_capacity = sizes_.words,
+      .receiver_capacity = std::min(sizes_.receiver_views, in.backing.most_views),
+      .light_count = in.scene.light_count(),
+      .undersampling = float(settings.undersampling),
+      .min_resolution = settings.layout == MapLayout::levels
+                            ? std::max(settings.min_resolution, std::min(settings.merge_below, settings.max_resolution))
+                            : settings.min_resolution,
+      .max_resolution = settings.max_resolution,
+      .backing = in.backing.block.x | in.backing.block.y << 16};
 }
 
 void Maps::record(gpu::Recorder& recorder, const Inputs& in) {
@@ -162,8 +195,11 @@ bool Maps::has_sun_levels(const Inputs& in) { return in.settings.layout == MapLa
 void Maps::place_levels(gpu::Recorder& recorder, const Inputs& in) {
   if (in.scene.directional_lights() == 0) return;
   gpu::Pass pass = recorder.pass("place levels");
-  const shared::PlaceLevelsPush push{.frame = pass.read(in.frame), .requests = pass.write(requests_), .level_bounds = pass.read(level_bounds_),
-                                     .max_resolution = in.settings.max_resolution, .levels_per_sun = in.settings.levels_per_sun};
+  const shared::PlaceLevelsPush push{.frame = pass.read(in.frame),
+                                     .requests = pass.write(requests_),
+                                     .level_bounds = pass.read(level_bounds_),
+                                     .max_resolution = in.settings.max_resolution,
+                                     .levels_per_sun = in.settings.levels_per_sun};
   pass.read(in.scene.light_buffer()), pass.read(in.scene.light_order_buffer()), pass.write(in.views);
   pass.dispatch(place_levels_, push, (in.scene.directional_lights() + 31) / 32);
 }
@@ -188,11 +224,13 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
       pass.dispatch_indirect(clear_, push, in.counters, offsetof(shared::FrameCounters, fit_map_groups));
     }
     gpu::Pass pass = recorder.pass("mark pages");
-    pass.read(in.frame), pass.read(in.counters), pass.read(in.counters, gpu::Access::indirect_read), pass.read(in.views);
+    pass.read(in.frame), pass.read(in.counters), pass.read(in.counters, gpu::Access::indirect_read),
+        pass.read(in.views);
     pass.read(in.scene.light_buffer());
     pass.read(in.clusters.boxes()), pass.read(in.clusters.lights()), pass.read(in.clusters.pair_clusters());
     pass.read(pair_requests_), pass.read(requests_), pass.read(light_maps_);
-    pass.write(maps_), pass.write(pair_maps_), pass.write(page_bits_), pass.write(projection_), pass.write(receiver_depth_);
+    pass.write(maps_), pass.write(pair_maps_), pass.write(page_bits_), pass.write(projection_),
+        pass.write(receiver_depth_);
     pass.dispatch_indirect(mark_, push, in.counters, offsetof(shared::FrameCounters, fit_pair_groups));
     if (in.settings.receiver_boxes == ReceiverBoxes::blocks) mark_blocks(recorder, in);
   }
@@ -200,7 +238,8 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
   if (!in.backing.whole_images) count(recorder, in, push);
   if (round == 0 && !in.backing.whole_images) {
     gpu::Pass pass = recorder.pass("estimate demand");
-    pass.read(in.frame), pass.read(maps_), pass.read(page_bits_), pass.read(in.counters), pass.read(in.counters, gpu::Access::indirect_read);
+    pass.read(in.frame), pass.read(maps_), pass.read(page_bits_), pass.read(in.counters),
+        pass.read(in.counters, gpu::Access::indirect_read);
     pass.write(demand_);
     pass.dispatch_indirect(estimate_, push, in.counters, offsetof(shared::FrameCounters, fit_map_groups));
   }
@@ -229,9 +268,12 @@ void Maps::mark_blocks(gpu::Recorder& recorder, const Inputs& in) {
 void Maps::place(gpu::Recorder& recorder, const Inputs& in) {
   gpu::Scope scope(recorder, "place maps");
   gpu::Pass pass = recorder.pass("place maps");
-  const shared::PlaceMapsPush push{.frame = pass.read(in.frame), .counters = pass.write(in.counters),
-                                   .priority = pass.read(in.scene.light_order_buffer()), .images = in.backing.images,
-                                   .image_count = in.backing.image_count, .light_count = in.scene.light_count(),
+  const shared::PlaceMapsPush push{.frame = pass.read(in.frame),
+                                   .counters = pass.write(in.counters),
+                                   .priority = pass.read(in.scene.light_order_buffer()),
+                                   .images = in.backing.images,
+                                   .image_count = in.backing.image_count,
+                                   .light_count = in.scene.light_count(),
                                    .whole_images = in.backing.whole_images};
   pass.read(light_maps_), pass.write(maps_);
   pass.dispatch(place_, push, 1);

@@ -13,22 +13,23 @@ class Maps {
 
   struct Sizes {
     uint32_t light_slots = 0;
-    uint32_t suns = 0;            ///< Directional lights whose maps are levels.
-    uint32_t pairs = 0;           ///< Capacity of the cluster/light lists.
+    uint32_t suns = 0;   ///< Directional lights whose maps are levels.
+    uint32_t pairs = 0;  ///< Capacity of the cluster/light lists.
     uint32_t maps = 0, words = 0, receiver_views = 0;
-    uint32_t receiver_grid = 1;   ///< Cells along a view's side.
+    uint32_t receiver_grid = 1;  ///< Cells along a view's side.
   };
   Result<void> reserve(const gpu::Device&, gpu::Memory&, const Sizes&, std::vector<gpu::Buffer>& retired);
   void fill(shared::FrameRecord&) const;
 
   /// How the store backs maps.
   struct Backing {
-    glm::uvec2 block{shared::PageSide, shared::PageSide};  ///< Texels that it backs at once; resolutions are multiples of the width.
+    glm::uvec2 block{shared::PageSide,
+                     shared::PageSide};  ///< Texels that it backs at once; resolutions are multiples of the width.
     uint32_t capacity_units = 0;         ///< Of what it can back; units of PoolUnit texels.
     VkDeviceAddress images = 0;          ///< shared::MapImage in `frame`, where maps lie in images.
     uint32_t image_count = 0;
-    uint32_t most_views = UINT32_MAX;    ///< That find a layer, however they are spread.
-    bool whole_images = false;           ///< Not in blocks: a map has all of its layers.
+    uint32_t most_views = UINT32_MAX;  ///< That find a layer, however they are spread.
+    bool whole_images = false;         ///< Not in blocks: a map has all of its layers.
   };
 
   struct Inputs {
@@ -57,7 +58,9 @@ class Maps {
   const Sizes& sizes() const { return sizes_; }
   const gpu::Buffer& light_maps() const { return light_maps_; }
   /// What a lookup reads.
-  std::array<const gpu::Buffer*, 5> published() const { return {&maps_, &light_maps_, &pair_maps_, &page_bits_, &page_first_}; }
+  std::array<const gpu::Buffer*, 5> published() const {
+    return {&maps_, &light_maps_, &pair_maps_, &page_bits_, &page_first_};
+  }
 
  private:
   /// Rounds in which the budget is fitted: as asked, by estimate, one halving more, the coarsest (which always fits).
@@ -73,8 +76,10 @@ class Maps {
   void count(gpu::Recorder&, const Inputs&, const shared::MapsPush&);
 
   Sizes sizes_;
-  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, mark_blocks_, count_pages_, count_blocks_, estimate_, fit_;
-  gpu::Buffer maps_, light_maps_, requests_, level_bounds_, demand_, pair_requests_, pair_maps_, page_bits_, page_first_, projection_, receiver_depth_;
+  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, mark_blocks_, count_pages_,
+      count_blocks_, estimate_, fit_;
+  gpu::Buffer maps_, light_maps_, requests_, level_bounds_, demand_, pair_requests_, pair_maps_, page_bits_,
+      page_first_, projection_, receiver_depth_;
 };
 
 }  // namespace umbrage::maps

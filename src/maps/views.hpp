@@ -11,8 +11,8 @@ class Views {
   Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t views, std::vector<gpu::Buffer>& retired);
   void fill(shared::FrameRecord& frame) const { frame.views = views_.address(); }
   /// all_lights: those that no cluster uses too.
-  void record(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&, const gpu::Buffer& used_lights,
-              bool all_lights);
+  void record(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,
+              const gpu::Buffer& used_lights, bool all_lights);
   const gpu::Buffer& buffer() const { return views_; }
 
  private:

@@ -14,16 +14,20 @@ constexpr uint32_t kCount[] =
 Result<NeededTriangles> NeededTriangles::create(const gpu::PipelineFactory& factory) {
   NeededTriangles out;
   for (uint32_t masked = 0; masked < 2; ++masked) {
-    auto made = factory.compute(kCount, masked ? "count needed triangles, masked" : "count needed triangles", {{0, masked}});
+    auto made =
+        factory.compute(kCount, masked ? "count needed triangles, masked" : "count needed triangles", {{0, masked}});
     if (!made) return made.error();
     out.count_[masked] = std::move(*made);
   }
   return out;
 }
 
-void NeededTriangles::record(gpu::Recorder& recorder, const PageWriterInputs& in, VkDeviceAddress texels, VkDeviceAddress count) const {
+void NeededTriangles::record(gpu::Recorder& recorder, const PageWriterInputs& in, VkDeviceAddress texels,
+                             VkDeviceAddress count) const {
   gpu::Pass pass = recorder.pass("count needed triangles");
-  for (const gpu::Buffer* buffer : {&in.frame, &in.views, &in.maps, &in.page_bits, &in.page_first, &in.items, &in.counts}) pass.read(*buffer);
+  for (const gpu::Buffer* buffer :
+       {&in.frame, &in.views, &in.maps, &in.page_bits, &in.page_first, &in.items, &in.counts})
+    pass.read(*buffer);
   const shared::CountNeededPush push{.frame = in.frame.address(),
                                      .casters = pass.read(in.scene.caster_buffer()),
                                      .instances = pass.read(in.scene.instance_buffer()),

@@ -15,7 +15,7 @@ class NeededTriangles {
   void record(gpu::Recorder&, const PageWriterInputs&, VkDeviceAddress texels, VkDeviceAddress count) const;
 
  private:
-  gpu::Pipeline count_[2];   // opaque, masked
+  gpu::Pipeline count_[2];  // opaque, masked
 };
 
 }  // namespace umbrage::raster

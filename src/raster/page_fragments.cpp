@@ -34,7 +34,8 @@ Result<PageFragments> PageFragments::create(const gpu::PipelineFactory& factory)
   if (!list) return list.error();
   out.list_ = std::move(*list);
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT, kWords = VK_FORMAT_R32G32B32A32_UINT;
-  constexpr std::array<VkFormat, 10> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats, kFloats, kFloats, kWords, kWords, kFloats};
+  constexpr std::array<VkFormat, 10> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats,
+                                                 kFloats, kFloats, kWords,  kWords,  kFloats};
   for (uint32_t masked = 0; masked < 2; ++masked) {
     const gpu::DepthShaders shaders{.vertex = kCastVertex,
                                     .fragment = kWriteFragment,
@@ -53,7 +54,8 @@ Result<void> PageFragments::reserve(const gpu::Device& device, gpu::Memory& memo
     gpu::Buffer& target;
     VkDeviceSize bytes;
     const char* name;
-  } needs[] = {{instances_, VkDeviceSize(shared::DrawWindow) * shared::CubeFaceCount * sizeof(shared::PageInstance), "page instances"},
+  } needs[] = {{instances_, VkDeviceSize(shared::DrawWindow) * shared::CubeFaceCount * sizeof(shared::PageInstance),
+                "page instances"},
                {commands_, shared::DrawWindow * sizeof(shared::DrawCommand), "page draws"},
                {draw_count_, sizeof(uint32_t), "page draw count"}};
   for (const auto& need : needs) {
@@ -71,8 +73,8 @@ void PageFragments::record(gpu::Recorder& recorder, const PageWriterInputs& in, 
       record_window(recorder, in, max_resolution, masked, first);
 }
 
-void PageFragments::record_window(gpu::Recorder& recorder, const PageWriterInputs& in, uint32_t max_resolution, bool masked,
-                                  uint32_t first) const {
+void PageFragments::record_window(gpu::Recorder& recorder, const PageWriterInputs& in, uint32_t max_resolution,
+                                  bool masked, uint32_t first) const {
   const uint32_t window = std::min(shared::DrawWindow, in.item_capacity - first);
   {
     gpu::Pass pass = recorder.pass("list page draws");
@@ -111,7 +113,8 @@ void PageFragments::record_window(gpu::Recorder& recorder, const PageWriterInput
   const VkDeviceSize offset = 0;
   vk.vkCmdBindVertexBuffers(commands, 0, 1, &instances, &offset);
   pass.bind_graphics(cast_[masked], push);
-  vk.vkCmdDrawIndexedIndirectCount(commands, commands_.handle(), 0, draw_count_.handle(), 0, window, sizeof(shared::DrawCommand));
+  vk.vkCmdDrawIndexedIndirectCount(commands, commands_.handle(), 0, draw_count_.handle(), 0, window,
+                                   sizeof(shared::DrawCommand));
   vk.vkCmdEndRendering(commands);
 }
 

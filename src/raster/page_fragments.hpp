@@ -15,7 +15,8 @@ class PageFragments {
   void record(gpu::Recorder&, const PageWriterInputs&, uint32_t max_resolution) const;
 
  private:
-  void record_window(gpu::Recorder&, const PageWriterInputs&, uint32_t max_resolution, bool masked, uint32_t first) const;
+  void record_window(gpu::Recorder&, const PageWriterInputs&, uint32_t max_resolution, bool masked,
+                     uint32_t first) const;
   gpu::Pipeline list_, cast_[2];  // [1]: masked
   gpu::Buffer instances_, commands_, draw_count_;
 };

@@ -17,7 +17,8 @@ constexpr uint32_t kMaskFragment[] =
 
 /// Begins rendering into a rectangle of the atlas. The viewport is always the whole: coordinates round alike, so that both
 /// writers make the same bits.
-void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::Image& atlas, const VkRect2D& area, bool clear) {
+void begin(const gpu::Device& device, VkCommandBuffer commands, const gpu::Image& atlas, const VkRect2D& area,
+           bool clear) {
   VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   depth.imageView = atlas.view();
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
@@ -43,7 +44,8 @@ shared::CastPush declare(gpu::Pass& pass, const Writers::Inputs& in) {
   pass.read(in.culling.draw_counts(), indirect_read);
   const gpu::Image& atlas = in.store.atlas();
   pass.image(atlas, depth_attachment);
-  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read), .viewport_size = {atlas.width(), atlas.height()}};
+  return {.batches = pass.read(in.scene.batch_buffer(), fragment_read),
+          .viewport_size = {atlas.width(), atlas.height()}};
 }
 
 void bind_geometry(const gpu::Functions& vk, VkCommandBuffer commands, const Writers::Inputs& in) {
@@ -59,10 +61,11 @@ Result<Writers> Writers::create(const gpu::PipelineFactory& factory) {
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT, kWords = VK_FORMAT_R32G32B32A32_UINT;
   constexpr std::array<VkFormat, 7> kAttributes{kFloats, kFloats, kFloats, kFloats, kFloats, kWords, kWords};
   for (uint32_t masked = 0; masked < 2; ++masked) {
-    const gpu::DepthShaders shaders{.vertex = kCastVertex,
-                                    .fragment = masked ? std::span<const uint32_t>(kMaskFragment) : std::span<const uint32_t>{},
-                                    .instance_attributes = kAttributes,
-                                    .instance_stride_bytes = sizeof(shared::CasterInstance)};
+    const gpu::DepthShaders shaders{
+        .vertex = kCastVertex,
+        .fragment = masked ? std::span<const uint32_t>(kMaskFragment) : std::span<const uint32_t>{},
+        .instance_attributes = kAttributes,
+        .instance_stride_bytes = sizeof(shared::CasterInstance)};
     auto made = factory.depth(shaders, masked ? "cast, masked" : "cast", {{0, masked}});
     if (!made) return made.error();
     out.cast_[masked] = std::move(*made);
@@ -85,9 +88,11 @@ void Writers::record_multi_draw(gpu::Recorder& recorder, const Inputs& in, uint3
     bind_geometry(vk, commands, in);
     for (uint32_t masked = 0; masked < (in.scene.has_masked() ? 2u : 1u); ++masked) {
       pass.bind_graphics(cast_[masked], push);
-      const VkDeviceSize count_at = masked ? offsetof(shared::DrawCounts, masked) : offsetof(shared::DrawCounts, opaque);
-      vk.vkCmdDrawIndexedIndirectCount(commands, in.culling.commands().handle(), VkDeviceSize(masked) * capacity * sizeof(shared::DrawCommand),
-                                       in.culling.draw_counts().handle(), count_at, std::min(capacity, in.max_draws), sizeof(shared::DrawCommand));
+      const VkDeviceSize count_at =
+          masked ? offsetof(shared::DrawCounts, masked) : offsetof(shared::DrawCounts, opaque);
+      vk.vkCmdDrawIndexedIndirectCount(
+          commands, in.culling.commands().handle(), VkDeviceSize(masked) * capacity * sizeof(shared::DrawCommand),
+          in.culling.draw_counts().handle(), count_at, std::min(capacity, in.max_draws), sizeof(shared::DrawCommand));
     }
     vk.vkCmdEndRendering(commands);
   }
@@ -107,12 +112,16 @@ void Writers::record_traditional(gpu::Recorder& recorder, const Inputs& in) cons
     bind_geometry(vk, commands, in);
     for (uint32_t i = 0; i < count; ++i) {
       const glm::uvec2 tile = shared::atlas_tile(first + i, layout.columns, layout.resolution);
-      begin(recorder.device(), commands, in.store.atlas(), {{int32_t(tile.x), int32_t(tile.y)}, {layout.resolution, layout.resolution}}, true);
+      begin(recorder.device(), commands, in.store.atlas(),
+            {{int32_t(tile.x), int32_t(tile.y)}, {layout.resolution, layout.resolution}}, true);
       for (uint32_t masked = 0; masked < (in.scene.has_masked() ? 2u : 1u); ++masked) {
         pass.bind_graphics(cast_[masked], push);
-        const VkDeviceSize count_at = i * sizeof(shared::DrawCounts) + (masked ? offsetof(shared::DrawCounts, masked) : offsetof(shared::DrawCounts, opaque));
-        vk.vkCmdDrawIndexedIndirectCount(commands, in.culling.commands().handle(), VkDeviceSize(2 * i + masked) * range * sizeof(shared::DrawCommand),
-                                         in.culling.draw_counts().handle(), count_at, std::min(range, in.max_draws), sizeof(shared::DrawCommand));
+        const VkDeviceSize count_at = i * sizeof(shared::DrawCounts) + (masked ? offsetof(shared::DrawCounts, masked)
+                                                                               : offsetof(shared::DrawCounts, opaque));
+        vk.vkCmdDrawIndexedIndirectCount(commands, in.culling.commands().handle(),
+                                         VkDeviceSize(2 * i + masked) * range * sizeof(shared::DrawCommand),
+                                         in.culling.draw_counts().handle(), count_at, std::min(range, in.max_draws),
+                                         sizeof(shared::DrawCommand));
       }
       vk.vkCmdEndRendering(commands);
     }

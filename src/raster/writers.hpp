@@ -18,7 +18,7 @@ class Writers {
     const store::FixedCubes& store;
     culling::CasterCulling& culling;
     culling::CasterCulling::Inputs cull;
-    uint32_t max_draws;            ///< Of one indirect call on this device.
+    uint32_t max_draws;  ///< Of one indirect call on this device.
   };
   /// One pass over the whole atlas a round, one multi-draw each for opaque and masked casters.
   void record_multi_draw(gpu::Recorder&, const Inputs&, uint32_t rounds) const;
@@ -26,7 +26,7 @@ class Writers {
   void record_traditional(gpu::Recorder&, const Inputs&) const;
 
  private:
-  gpu::Pipeline cast_[2];   // opaque, masked
+  gpu::Pipeline cast_[2];  // opaque, masked
 };
 
 }  // namespace umbrage::raster

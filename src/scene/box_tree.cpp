@@ -47,10 +47,13 @@ shared::TreeShape tree_shape(uint32_t count) {
 
 Result<TreePipelines> TreePipelines::create(const gpu::PipelineFactory& factory) {
   TreePipelines out;
-  const struct { gpu::Pipeline& target; std::span<const uint32_t> spirv; const char* name; } all[] = {
-      {out.reduce_bounds, kReduceBounds, "reduce bounds"}, {out.make_keys, kMakeKeys, "make keys"},
-      {out.sort_count, kSortCount, "sort: count"},         {out.sort_scan, kSortScan, "sort: scan"},
-      {out.sort_scatter, kSortScatter, "sort: scatter"},   {out.build_nodes, kBuildNodes, "build nodes"}};
+  const struct {
+    gpu::Pipeline& target;
+    std::span<const uint32_t> spirv;
+    const char* name;
+  } all[] = {{out.reduce_bounds, kReduceBounds, "reduce bounds"}, {out.make_keys, kMakeKeys, "make keys"},
+             {out.sort_count, kSortCount, "sort: count"},         {out.sort_scan, kSortScan, "sort: scan"},
+             {out.sort_scatter, kSortScatter, "sort: scatter"},   {out.build_nodes, kBuildNodes, "build nodes"}};
   for (const auto& entry : all) {
     auto made = factory.compute(entry.spirv, entry.name);
     if (!made) return made.error();
@@ -59,20 +62,29 @@ Result<TreePipelines> TreePipelines::create(const gpu::PipelineFactory& factory)
   return out;
 }
 
-Result<void> BoxTree::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t count, std::vector<gpu::Buffer>& retired) {
+Result<void> BoxTree::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t count,
+                              std::vector<gpu::Buffer>& retired) {
   if (count <= capacity_ && bounds_) return {};
   const uint32_t capacity = std::max(count + count / 2, 256u);
   const shared::TreeShape shape = tree_shape(capacity);
   uint32_t nodes = 0;
   for (uint32_t level = 0; level < shape.levels; ++level) nodes += shape.nodes[level];
   const VkDeviceSize words = capacity * sizeof(uint32_t);
-  struct Need { gpu::Buffer& target; VkDeviceSize size; const char* name; gpu::Buffer made; };
-  Need needs[] = {{keys_[0], words, "tree keys", {}},          {keys_[1], words, "tree keys (other)", {}},
-                  {values_[0], words, "tree order", {}},       {values_[1], words, "tree order (other)", {}},
-                  {counts_, groups(capacity, shared::SortBlock) * shared::SortDigits * sizeof(uint32_t), "sort counts", {}},
-                  {leaves_, capacity * sizeof(shared::Box), "tree leaves", {}},
-                  {nodes_, nodes * sizeof(shared::Box), "tree nodes", {}},
-                  {bounds_, 6 * sizeof(uint32_t), "tree bounds", {}}};
+  struct Need {
+    gpu::Buffer& target;
+    VkDeviceSize size;
+    const char* name;
+    gpu::Buffer made;
+  };
+  Need needs[] = {
+      {keys_[0], words, "tree keys", {}},
+      {keys_[1], words, "tree keys (other)", {}},
+      {values_[0], words, "tree order", {}},
+      {values_[1], words, "tree order (other)", {}},
+      {counts_, groups(capacity, shared::SortBlock) * shared::SortDigits * sizeof(uint32_t), "sort counts", {}},
+      {leaves_, capacity * sizeof(shared::Box), "tree leaves", {}},
+      {nodes_, nodes * sizeof(shared::Box), "tree nodes", {}},
+      {bounds_, 6 * sizeof(uint32_t), "tree bounds", {}}};
   for (Need& need : needs) {
     auto made = gpu::Buffer::create(device, memory, need.size, gpu::MemoryKind::device, need.name);
     if (!made) return made.error();
@@ -86,7 +98,8 @@ Result<void> BoxTree::reserve(const gpu::Device& device, gpu::Memory& memory, ui
   return {};
 }
 
-void BoxTree::record(gpu::Recorder& recorder, const TreePipelines& pipelines, const gpu::Buffer& boxes, uint32_t count) {
+void BoxTree::record(gpu::Recorder& recorder, const TreePipelines& pipelines, const gpu::Buffer& boxes,
+                     uint32_t count) {
   shape_ = tree_shape(count);
   {
     gpu::Pass pass = recorder.pass("clear bounds");
@@ -103,13 +116,17 @@ void BoxTree::record(gpu::Recorder& recorder, const TreePipelines& pipelines, co
   }
   {
     gpu::Pass pass = recorder.pass("make keys");
-    const shared::BoundsPush push{.boxes = pass.read(boxes), .bounds = pass.read(bounds_), .keys = pass.write(keys_[0]),
-                                  .values = pass.write(values_[0]), .count = count};
+    const shared::BoundsPush push{.boxes = pass.read(boxes),
+                                  .bounds = pass.read(bounds_),
+                                  .keys = pass.write(keys_[0]),
+                                  .values = pass.write(values_[0]),
+                                  .count = count};
     pass.dispatch(pipelines.make_keys, push, groups(count, 128));
   }
   const uint32_t blocks = groups(count, shared::SortBlock);
   for (uint32_t i = 0; i < shared::SortPasses; ++i) {
-    const gpu::Buffer &keys_in = keys_[i % 2], &values_in = values_[i % 2], &keys_out = keys_[1 - i % 2], &values_out = values_[1 - i % 2];
+    const gpu::Buffer &keys_in = keys_[i % 2], &values_in = values_[i % 2], &keys_out = keys_[1 - i % 2],
+                      &values_out = values_[1 - i % 2];
     shared::SortPush push{.count = count, .blocks = blocks, .shift = 4 * i};
     {
       gpu::Pass pass = recorder.pass("sort: count");

@@ -25,7 +25,7 @@ class BoxTree {
   const gpu::Buffer& order() const { return values_[0]; }  ///< Box index of each leaf.
   const gpu::Buffer& leaves() const { return leaves_; }    ///< Boxes in Morton order.
   const gpu::Buffer& nodes() const { return nodes_; }
-  const gpu::Buffer& bounds() const { return bounds_; }    ///< Six ordered_bits of the box around everything.
+  const gpu::Buffer& bounds() const { return bounds_; }  ///< Six ordered_bits of the box around everything.
 
  private:
   uint32_t capacity_ = 0;

@@ -40,7 +40,9 @@ void GpuScene::fill(Instance& instance, const Mesh& mesh) const {
   record.row1 = {m[4], m[5], m[6], m[7]};
   record.row2 = {m[8], m[9], m[10], m[11]};
   const Stream own{mesh.position_buffer ? mesh.position_buffer->address() : 0, sizeof(Vec3)};
-  const Stream& positions = instance.desc.deformed.address ? instance.desc.deformed : mesh.device_positions.address ? mesh.device_positions : own;
+  const Stream& positions = instance.desc.deformed.address  ? instance.desc.deformed
+                            : mesh.device_positions.address ? mesh.device_positions
+                                                            : own;
   record.positions = positions.address;
   record.position_stride = positions.stride_bytes / 4;
   record.uvs = mesh.device_uvs.address ? mesh.device_uvs.address : mesh.uv_buffer ? mesh.uv_buffer->address() : 0;
@@ -50,14 +52,17 @@ void GpuScene::fill(Instance& instance, const Mesh& mesh) const {
 }
 
 Result<void> GpuScene::ensure_buffers() {
-  const struct { gpu::GrownBuffer& buffer; VkDeviceSize bytes; const char* name; } needs[] = {
-      {light_buffer_, std::max(lights_.slots(), 1u) * sizeof(shared::LightRecord), "lights"},
-      {instance_buffer_, std::max(instances_.slots(), 1u) * sizeof(shared::InstanceRecord), "instances"},
-      {batch_buffer_, std::max(batch_ranges_.size(), 1u) * sizeof(shared::BatchRecord), "batches"},
-      {caster_buffer_, std::max(caster_ranges_.size(), 1u) * sizeof(shared::CasterRecord), "casters"},
-      {caster_boxes_, std::max(caster_ranges_.size(), 1u) * sizeof(shared::Box), "caster boxes"},
-      {index_buffer_, std::max(index_ranges_.size(), 1u) * sizeof(uint32_t), "indices"},
-      {light_order_buffer_, std::max(lights_.slots(), 1u) * sizeof(uint32_t), "light order"}};
+  const struct {
+    gpu::GrownBuffer& buffer;
+    VkDeviceSize bytes;
+    const char* name;
+  } needs[] = {{light_buffer_, std::max(lights_.slots(), 1u) * sizeof(shared::LightRecord), "lights"},
+               {instance_buffer_, std::max(instances_.slots(), 1u) * sizeof(shared::InstanceRecord), "instances"},
+               {batch_buffer_, std::max(batch_ranges_.size(), 1u) * sizeof(shared::BatchRecord), "batches"},
+               {caster_buffer_, std::max(caster_ranges_.size(), 1u) * sizeof(shared::CasterRecord), "casters"},
+               {caster_boxes_, std::max(caster_ranges_.size(), 1u) * sizeof(shared::Box), "caster boxes"},
+               {index_buffer_, std::max(index_ranges_.size(), 1u) * sizeof(uint32_t), "indices"},
+               {light_order_buffer_, std::max(lights_.slots(), 1u) * sizeof(uint32_t), "light order"}};
   for (const auto& need : needs)
     if (auto grown = need.buffer.ensure(device_, memory_, need.bytes, need.name); !grown) return grown.error();
   const VkDeviceSize light_boxes = std::max(lights_.slots(), 1u) * sizeof(shared::Box);
@@ -94,7 +99,8 @@ VkDeviceSize GpuScene::staged_bytes() const {
   }
   bytes += dirty_instances_.size() * padded(sizeof(shared::InstanceRecord));
   bytes += dirty_lights_.size() * padded(sizeof(shared::LightRecord)) + padded(lights_.slots() * sizeof(uint32_t));
-  for (const auto& [first, count] : dirty_casters_) bytes += padded(count * sizeof(shared::CasterRecord)) + padded(count * sizeof(uint32_t));
+  for (const auto& [first, count] : dirty_casters_)
+    bytes += padded(count * sizeof(shared::CasterRecord)) + padded(count * sizeof(uint32_t));
   for (const uint32_t slot : moved_)
     if (instances_.alive(slot)) bytes += padded(instances_.at(slot).caster_count * sizeof(uint32_t));
   return bytes;
@@ -112,7 +118,8 @@ void GpuScene::stage_meshes(gpu::Uploader& uploader) {
       uploader.copy(*mesh.uv_buffer, 0, mesh.uvs.data(), mesh.uvs.size() * sizeof(Vec2));
       new_geometry_.push_back(mesh.uv_buffer.get());
     }
-    uploader.copy(index_buffer_.buffer(), mesh.first_index * sizeof(uint32_t), mesh.indices.data(), mesh.indices.size() * sizeof(uint32_t));
+    uploader.copy(index_buffer_.buffer(), mesh.first_index * sizeof(uint32_t), mesh.indices.data(),
+                  mesh.indices.size() * sizeof(uint32_t));
     uploader.copy(batch_buffer_.buffer(), mesh.first_batch * sizeof(shared::BatchRecord), mesh.batches.data(),
                   mesh.batches.size() * sizeof(shared::BatchRecord));
     mesh.positions = {}, mesh.uvs = {}, mesh.indices = {};
@@ -130,7 +137,8 @@ void GpuScene::stage_records(gpu::Uploader& uploader) {
     if (!instances_.alive(slot)) continue;
     Instance& instance = instances_.at(slot);
     fill(instance, *meshes_.find(instance.desc.mesh.value));
-    uploader.copy(instance_buffer_.buffer(), slot * sizeof(shared::InstanceRecord), &instance.record, sizeof instance.record);
+    uploader.copy(instance_buffer_.buffer(), slot * sizeof(shared::InstanceRecord), &instance.record,
+                  sizeof instance.record);
   }
   dirty_instances_.clear();
 
@@ -149,15 +157,21 @@ void GpuScene::stage_records(gpu::Uploader& uploader) {
     order.reserve(lights_.count());
     for (const bool directional : {true, false}) {
       for (uint32_t slot = 0; slot < lights_.slots(); ++slot)
-        if (lights_.alive(slot) && (lights_.at(slot).record.type == shared::LightDirectional) == directional) order.push_back(slot);
-      if (directional) directional_count_ = static_cast<uint32_t>(order.size());
-      else std::stable_sort(order.begin() + directional_count_, order.end(), [&](uint32_t a, uint32_t b) { return lights_.at(a).desc.priority > lights_.at(b).desc.priority; });
+        if (lights_.alive(slot) && (lights_.at(slot).record.type == shared::LightDirectional) == directional)
+          order.push_back(slot);
+      if (directional)
+        directional_count_ = static_cast<uint32_t>(order.size());
+      else
+        std::stable_sort(order.begin() + directional_count_, order.end(), [&](uint32_t a, uint32_t b) {
+          return lights_.at(a).desc.priority > lights_.at(b).desc.priority;
+        });
     }
     uploader.copy(light_order_buffer_.buffer(), 0, order.data(), order.size() * sizeof(uint32_t));
     lights_edited_ = false;
   }
   for (const auto& [first, count] : dirty_casters_)
-    uploader.copy(caster_buffer_.buffer(), first * sizeof(shared::CasterRecord), &casters_[first], count * sizeof(shared::CasterRecord));
+    uploader.copy(caster_buffer_.buffer(), first * sizeof(shared::CasterRecord), &casters_[first],
+                  count * sizeof(shared::CasterRecord));
 }
 
 void GpuScene::stage_moved(gpu::Uploader& uploader) {
@@ -212,7 +226,8 @@ void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, 
     uploader.record(recorder);
     // Written once, so this makes them visible for good.
     constexpr size_t kAtOnce = 24;
-    for (std::span<const gpu::Buffer* const> rest = new_geometry_; !rest.empty(); rest = rest.subspan(std::min(kAtOnce, rest.size())))
+    for (std::span<const gpu::Buffer* const> rest = new_geometry_; !rest.empty();
+         rest = rest.subspan(std::min(kAtOnce, rest.size())))
       recorder.publish(rest.first(std::min(kAtOnce, rest.size())), {},
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT);
   }
@@ -220,9 +235,12 @@ void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, 
     gpu::Scope scope(recorder, "batch bounds");
     for (uint32_t first = 0; first < moved_count_; first += kMaxGroups) {
       gpu::Pass pass = recorder.pass("bound batches");
-      const shared::BoundBatchesPush push{.moved = moved_address_ + first * sizeof(uint32_t), .casters = pass.read(caster_buffer()),
-                                          .instances = pass.read(instance_buffer()), .batches = pass.read(batch_buffer()),
-                                          .indices = pass.read(index_buffer()), .boxes = pass.write(caster_boxes_.buffer())};
+      const shared::BoundBatchesPush push{.moved = moved_address_ + first * sizeof(uint32_t),
+                                          .casters = pass.read(caster_buffer()),
+                                          .instances = pass.read(instance_buffer()),
+                                          .batches = pass.read(batch_buffer()),
+                                          .indices = pass.read(index_buffer()),
+                                          .boxes = pass.write(caster_boxes_.buffer())};
       pass.dispatch(pipelines.bound_batches, push, std::min(moved_count_ - first, kMaxGroups));
     }
   }
@@ -233,7 +251,8 @@ void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, 
   gpu::Scope scope(recorder, "light tree");
   if (lights_changed_ && light_slots() > 0) {
     gpu::Pass pass = recorder.pass("bound lights");
-    const shared::BoundLightsPush push{.lights = pass.read(light_buffer()), .boxes = pass.write(light_boxes_), .count = light_slots()};
+    const shared::BoundLightsPush push{
+        .lights = pass.read(light_buffer()), .boxes = pass.write(light_boxes_), .count = light_slots()};
     pass.dispatch(pipelines.bound_lights, push, (light_slots() + 63) / 64);
   }
   light_tree_.record(recorder, pipelines.tree, light_boxes_, light_slots());

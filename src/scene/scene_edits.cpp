@@ -12,23 +12,29 @@ Error stale(const char* what, uint32_t value) {
   return {ErrorCode::stale_id, std::string(what) + " id " + std::to_string(value) + " was removed or never handed out"};
 }
 Error invalid(std::string text) { return {ErrorCode::invalid_argument, std::move(text)}; }
-Error full(const char* what) { return {ErrorCode::out_of_memory, std::string("no more than 1048576 ") + what + " at a time"}; }
+Error full(const char* what) {
+  return {ErrorCode::out_of_memory, std::string("no more than 1048576 ") + what + " at a time"};
+}
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool finite(const Affine& a) { return std::all_of(std::begin(a.m), std::end(a.m), [](float x) { return std::isfinite(x); }); }
+bool finite(const Affine& a) {
+  return std::all_of(std::begin(a.m), std::end(a.m), [](float x) { return std::isfinite(x); });
+}
 
 std::string check_stream(const Stream& stream, uint32_t floats, const char* name) {
   if (stream.address == 0) return {};
   if (stream.address % 4 != 0) return std::string(name) + ": the address must be a multiple of 4";
   if (stream.stride_bytes % 4 != 0 || stream.stride_bytes < 4 * floats)
-    return std::string(name) + ": the stride must be a multiple of 4 and at least " + std::to_string(4 * floats) + ", it is " + std::to_string(stream.stride_bytes);
+    return std::string(name) + ": the stride must be a multiple of 4 and at least " + std::to_string(4 * floats) +
+           ", it is " + std::to_string(stream.stride_bytes);
   return {};
 }
 }  // namespace
 
 Result<MaskId> GpuScene::add_mask(VkImageView view, VkSampler sampler) {
   if (!view) return invalid("add_mask: the image view is VK_NULL_HANDLE");
-  if (masks_.count() >= shared::MaxMasks) return Error{ErrorCode::out_of_memory, "add_mask: no more than 1024 masks at a time"};
+  if (masks_.count() >= shared::MaxMasks)
+    return Error{ErrorCode::out_of_memory, "add_mask: no more than 1024 masks at a time"};
   const uint32_t id = masks_.add({view, sampler});
   if (IdPool<MaskEntry>::slot_of(id) >= shared::MaxMasks) {
     masks_.remove(id);
@@ -43,7 +49,8 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
   if (submeshes.empty()) submeshes.push_back({.index_count = static_cast<uint32_t>(desc.indices.size())});
   mesh.batches.reserve(prepared.batches.size());
   for (const PreparedBatch& batch : prepared.batches) {
-    if (batch.submesh >= submeshes.size()) return invalid("add_mesh: the prepared bytes name a submesh that the mesh does not have");
+    if (batch.submesh >= submeshes.size())
+      return invalid("add_mesh: the prepared bytes name a submesh that the mesh does not have");
     const Submesh& submesh = submeshes[batch.submesh];
     shared::BatchRecord record{};
     record.box_min = {batch.bounds.min.x, batch.bounds.min.y, batch.bounds.min.z};
@@ -69,10 +76,12 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
 
 Result<MeshId> GpuScene::add_mesh(const MeshDesc& desc) {
   if (meshes_.full()) return full("meshes");
-  if (auto text = check_stream(desc.device_positions, 3, "MeshDesc::device_positions"); !text.empty()) return invalid(text);
+  if (auto text = check_stream(desc.device_positions, 3, "MeshDesc::device_positions"); !text.empty())
+    return invalid(text);
   if (auto text = check_stream(desc.device_uvs, 2, "MeshDesc::device_uvs"); !text.empty()) return invalid(text);
   if (!desc.uvs.empty() && desc.uvs.size() != desc.positions.size())
-    return invalid("MeshDesc::uvs: " + std::to_string(desc.uvs.size()) + " for " + std::to_string(desc.positions.size()) + " positions");
+    return invalid("MeshDesc::uvs: " + std::to_string(desc.uvs.size()) + " for " +
+                   std::to_string(desc.positions.size()) + " positions");
   bool masked = false;
   for (const Submesh& submesh : desc.submeshes) {
     if (!submesh.mask.value) continue;
@@ -87,7 +96,8 @@ Result<MeshId> GpuScene::add_mesh(const MeshDesc& desc) {
   const uint64_t key = prepare_key(desc.positions, desc.indices, desc.submeshes, prepare);
   auto prepared = open_prepared(bytes);
   if (bytes.empty() || !prepared || prepared->key != key) {
-    if (!bytes.empty()) device_.message(Severity::warning, "add_mesh: the prepared bytes were made from other input; prepared anew");
+    if (!bytes.empty())
+      device_.message(Severity::warning, "add_mesh: the prepared bytes were made from other input; prepared anew");
     auto result = prepare_mesh(desc.positions, desc.indices, desc.submeshes, prepare);
     if (!result) return result.error();
     made = std::move(*result);
@@ -147,18 +157,20 @@ void GpuScene::mark_moved(uint32_t slot) {
 }
 
 Result<void> GpuScene::check(const LightDesc& light) const {
-  if (!finite(light.position) || !finite(light.direction)) return invalid("LightDesc: position and direction must be finite");
+  if (!finite(light.position) || !finite(light.direction))
+    return invalid("LightDesc: position and direction must be finite");
   const bool directed = light.type != LightType::point;
   if (directed && light.direction.x == 0 && light.direction.y == 0 && light.direction.z == 0)
     return invalid("LightDesc::direction must not be zero");
   if (light.type != LightType::directional && !(light.range_m > 0 && std::isfinite(light.range_m)))
     return invalid("LightDesc::range_m must be > 0 and finite");
-  if (light.type == LightType::spot && !(light.outer_cone_rad > 0 && light.outer_cone_rad <= 1.5707964f && light.inner_cone_rad >= 0 &&
-                                         light.inner_cone_rad <= light.outer_cone_rad))
+  if (light.type == LightType::spot && !(light.outer_cone_rad > 0 && light.outer_cone_rad <= 1.5707964f &&
+                                         light.inner_cone_rad >= 0 && light.inner_cone_rad <= light.outer_cone_rad))
     return invalid("LightDesc: 0 <= inner_cone_rad <= outer_cone_rad <= pi/2 and outer > 0");
   if (!(light.near_m >= 0) || (light.type != LightType::directional && light.near_m >= light.range_m))
     return invalid("LightDesc::near_m must be >= 0 and less than range_m");
-  if (!(light.priority >= 0 && std::isfinite(light.priority))) return invalid("LightDesc::priority must be >= 0 and finite");
+  if (!(light.priority >= 0 && std::isfinite(light.priority)))
+    return invalid("LightDesc::priority must be >= 0 and finite");
   return {};
 }
 
@@ -175,9 +187,9 @@ void GpuScene::fill(HostLight& light) {
   record.near_m = desc.near_m > 0 ? desc.near_m : desc.range_m / 256;
   record.host_index = desc.host_index;
   record.light_mask = desc.light_mask;
-  record.views = desc.type == LightType::directional                                                      ? shared::ViewsOrtho
+  record.views = desc.type == LightType::directional                                             ? shared::ViewsOrtho
                  : desc.type == LightType::spot && shared::spot_is_one_view(desc.outer_cone_rad) ? shared::ViewsSpot
-                                                                                                   : shared::ViewsCube;
+                                                                                                 : shared::ViewsCube;
 }
 
 Result<LightId> GpuScene::add_light(const LightDesc& desc) {

@@ -30,8 +30,8 @@ bool fits(const AtlasLayout& layout, uint64_t budget_bytes, uint32_t max_side) {
 }
 }  // namespace
 
-AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uint32_t max_side, const FrameSettings& settings,
-                    std::vector<uint32_t>& changed, std::vector<LightStatus>& without) {
+AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uint32_t max_side,
+                    const FrameSettings& settings, std::vector<uint32_t>& changed, std::vector<LightStatus>& without) {
   without.clear();
   std::vector<uint32_t> casting;
   uint32_t views = 0;
@@ -40,11 +40,14 @@ AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uin
     casting.push_back(slot);
     views += views_of(lights.at(slot));
   }
-  const uint32_t finest = std::clamp(settings.max_resolution, 16u, 1024u), coarsest = std::clamp(settings.min_resolution, 16u, 1024u);
+  const uint32_t finest = std::clamp(settings.max_resolution, 16u, 1024u),
+                 coarsest = std::clamp(settings.min_resolution, 16u, 1024u);
   AtlasLayout layout = grid(views, finest, max_side);
-  while (layout.resolution > coarsest && !fits(layout, budget_bytes, max_side)) layout = grid(views, layout.resolution / 2, max_side);
+  while (layout.resolution > coarsest && !fits(layout, budget_bytes, max_side))
+    layout = grid(views, layout.resolution / 2, max_side);
   if (!fits(layout, budget_bytes, max_side)) {
-    std::stable_sort(casting.begin(), casting.end(), [&](uint32_t a, uint32_t b) { return lights.at(a).desc.priority > lights.at(b).desc.priority; });
+    std::stable_sort(casting.begin(), casting.end(),
+                     [&](uint32_t a, uint32_t b) { return lights.at(a).desc.priority > lights.at(b).desc.priority; });
     while (!fits(layout, budget_bytes, max_side) && !casting.empty()) {
       const uint32_t slot = casting.back();
       casting.pop_back();
@@ -63,7 +66,8 @@ AtlasLayout lay_out(IdPool<scene::HostLight>& lights, uint64_t budget_bytes, uin
     if (!lights.alive(slot)) continue;
     scene::HostLight& light = lights.at(slot);
     const uint32_t count = has_map[slot] ? views_of(light) : 0;
-    const uint32_t limit = light.desc.max_resolution ? std::max(std::bit_floor(light.desc.max_resolution), 16u) : layout.resolution;
+    const uint32_t limit =
+        light.desc.max_resolution ? std::max(std::bit_floor(light.desc.max_resolution), 16u) : layout.resolution;
     const uint32_t resolution = std::min(layout.resolution, limit);
     shared::LightRecord& record = light.record;
     if (record.first_view != next || record.view_count != count || record.resolution != resolution) {

@@ -9,7 +9,7 @@ namespace umbrage::store {
 
 /// How the maps share the budget.
 struct AtlasLayout {
-  uint32_t resolution = 16;    ///< Texels along a tile's side: the largest power of two with which all views fit.
+  uint32_t resolution = 16;  ///< Texels along a tile's side: the largest power of two with which all views fit.
   uint32_t maps = 0, views = 0;
   uint32_t columns = 1, rows = 1;
 };

@@ -22,10 +22,12 @@ LeastRoom least_room_of_pool(uint64_t budget_bytes) {
   return {budget_bytes / kBytes, kBytes};
 }
 
-ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, uint32_t sun_views, std::vector<uint32_t>& changed,
-                      std::vector<LightStatus>& without) {
+ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, uint32_t sun_views,
+                       std::vector<uint32_t>& changed, std::vector<LightStatus>& without) {
   without.clear();
-  const auto views_of = [&](uint32_t slot) { return lights.at(slot).record.views == shared::ViewsCube ? shared::CubeFaceCount : 1u; };
+  const auto views_of = [&](uint32_t slot) {
+    return lights.at(slot).record.views == shared::ViewsCube ? shared::CubeFaceCount : 1u;
+  };
   std::vector<uint32_t> casting;
   uint64_t views = 0;
   for (uint32_t slot = 0; slot < lights.slots(); ++slot) {
@@ -34,7 +36,8 @@ ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, 
     views += views_of(slot);
   }
   std::vector<bool> has_map(lights.slots(), false);
-  std::stable_sort(casting.begin(), casting.end(), [&](uint32_t a, uint32_t b) { return lights.at(a).desc.priority > lights.at(b).desc.priority; });
+  std::stable_sort(casting.begin(), casting.end(),
+                   [&](uint32_t a, uint32_t b) { return lights.at(a).desc.priority > lights.at(b).desc.priority; });
   while (views > room.views) {
     const uint32_t slot = casting.back();
     casting.pop_back();
@@ -46,7 +49,8 @@ ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom& room, 
   const auto number = [&](uint32_t slot) {
     scene::HostLight& light = lights.at(slot);
     const uint32_t count = has_map[slot] ? views_of(slot) : 0;
-    const uint32_t resolution = light.desc.max_resolution ? std::clamp(light.desc.max_resolution, 1u << shared::MinLevel, kFinest) : kFinest;
+    const uint32_t resolution =
+        light.desc.max_resolution ? std::clamp(light.desc.max_resolution, 1u << shared::MinLevel, kFinest) : kFinest;
     shared::LightRecord& record = light.record;
     if (record.first_view != numbered.views || record.view_count != count || record.resolution != resolution) {
       record.first_view = numbered.views, record.view_count = count, record.resolution = resolution;
@@ -74,16 +78,19 @@ Result<PagePool> PagePool::create(const gpu::PipelineFactory& factory) {
   return out;
 }
 
-Result<void> PagePool::reserve(const gpu::Device& device, gpu::Memory& memory, uint64_t budget_bytes, uint32_t word_capacity,
-                               std::vector<gpu::Buffer>& retired) {
+Result<void> PagePool::reserve(const gpu::Device& device, gpu::Memory& memory, uint64_t budget_bytes,
+                               uint32_t word_capacity, std::vector<gpu::Buffer>& retired) {
   if (auto ok = gpu::grow(pool_, device, memory, budget_bytes, "page pool", retired); !ok) return ok;
   if (auto ok = gpu::grow(total_, device, memory, sizeof(uint32_t), "units in use", retired); !ok) return ok;
   return scan_.reserve(device, memory, word_capacity, retired);
 }
 
-uint32_t PagePool::capacity_units() const { return static_cast<uint32_t>(std::min<uint64_t>(pool_.size() / kUnitBytes, 0x7fffffffu)); }
+uint32_t PagePool::capacity_units() const {
+  return static_cast<uint32_t>(std::min<uint64_t>(pool_.size() / kUnitBytes, 0x7fffffffu));
+}
 
-void PagePool::record(gpu::Recorder& recorder, const maps::Maps& maps, const gpu::Buffer& frame, const gpu::Buffer& counters) {
+void PagePool::record(gpu::Recorder& recorder, const maps::Maps& maps, const gpu::Buffer& frame,
+                      const gpu::Buffer& counters) {
   {
     gpu::Scope scope(recorder, "place pages");
     scan_.record(recorder, maps.page_first(), maps.sizes().words, total_, 0);

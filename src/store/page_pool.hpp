@@ -20,18 +20,19 @@ inline constexpr uint32_t kSunViews = shared::SunViews;
 
 struct ViewCount {
   uint32_t views = 0;
-  uint32_t suns = 0;   ///< Directional lights that cast shadows. Their views come first.
+  uint32_t suns = 0;  ///< Directional lights that cast shadows. Their views come first.
 };
 /// Numbers the views of lights that cast shadows. When not even the coarsest maps of all fit, lights go without by priority,
 /// then by slot (`without`). `changed`: slots whose records changed. sun_views: numbers that a directional light takes; each of its
 /// maps has one of them.
-ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom&, uint32_t sun_views, std::vector<uint32_t>& changed,
-                      std::vector<LightStatus>& without);
+ViewCount number_views(IdPool<scene::HostLight>& lights, const LeastRoom&, uint32_t sun_views,
+                       std::vector<uint32_t>& changed, std::vector<LightStatus>& without);
 
 class PagePool {
  public:
   static Result<PagePool> create(const gpu::PipelineFactory&);
-  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint64_t budget_bytes, uint32_t word_capacity, std::vector<gpu::Buffer>& retired);
+  Result<void> reserve(const gpu::Device&, gpu::Memory&, uint64_t budget_bytes, uint32_t word_capacity,
+                       std::vector<gpu::Buffer>& retired);
   void fill(shared::FrameRecord& frame) const { frame.pool = pool_.address(); }
   /// Places for the marked pages (they fit), and those cleared.
   void record(gpu::Recorder&, const maps::Maps&, const gpu::Buffer& frame, const gpu::Buffer& counters);

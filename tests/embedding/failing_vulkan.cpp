@@ -74,18 +74,18 @@ PFN_vkVoidFunction install(R(VKAPI_PTR* real)(Args...)) {
   return reinterpret_cast<PFN_vkVoidFunction>(&hooked<Hook, R, Args...>);
 }
 
-#define HOOK(function)                                    \
-  struct Hook_##function {                                \
-    static constexpr const char* name = #function;        \
-    static inline PFN_##function real = nullptr;          \
+#define HOOK(function)                             \
+  struct Hook_##function {                         \
+    static constexpr const char* name = #function; \
+    static inline PFN_##function real = nullptr;   \
   };
 UMB_INSTANCE_FUNCTIONS(HOOK)
 UMB_DEVICE_FUNCTIONS(HOOK)
 #undef HOOK
 
 PFN_vkVoidFunction VKAPI_PTR get_device_proc_addr(VkDevice device, const char* name) {
-#define INSTALL(function)                                                                            \
-  if (std::strcmp(name, #function) == 0)                                                             \
+#define INSTALL(function)                \
+  if (std::strcmp(name, #function) == 0) \
     return install<Hook_##function>(reinterpret_cast<PFN_##function>(vkGetDeviceProcAddr(device, name)));
   UMB_DEVICE_FUNCTIONS(INSTALL)
 #undef INSTALL
@@ -95,10 +95,9 @@ PFN_vkVoidFunction VKAPI_PTR get_device_proc_addr(VkDevice device, const char* n
 }  // namespace
 
 PFN_vkVoidFunction VKAPI_PTR get_instance_proc_addr(VkInstance instance, const char* name) {
-  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
-    return reinterpret_cast<PFN_vkVoidFunction>(&get_device_proc_addr);
-#define INSTALL(function)                                                                                \
-  if (std::strcmp(name, #function) == 0)                                                                 \
+  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(&get_device_proc_addr);
+#define INSTALL(function)                \
+  if (std::strcmp(name, #function) == 0) \
     return install<Hook_##function>(reinterpret_cast<PFN_##function>(vkGetInstanceProcAddr(instance, name)));
   UMB_INSTANCE_FUNCTIONS(INSTALL)
 #undef INSTALL

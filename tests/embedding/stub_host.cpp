@@ -88,20 +88,25 @@ vk::UniqueDeviceMemory StubHost::allocate(const vk::MemoryRequirements& needed, 
 
 StubHost::Image StubHost::make_image(vk::Format format, vk::ImageUsageFlags usage, vk::ImageAspectFlags aspect) const {
   Image result;
-  result.image = device_.createImageUnique({.imageType = vk::ImageType::e2D, .format = format,
-                                            .extent = {picture_width, picture_height, 1}, .mipLevels = 1,
-                                            .arrayLayers = 1, .usage = usage});
+  result.image = device_.createImageUnique({.imageType = vk::ImageType::e2D,
+                                            .format = format,
+                                            .extent = {picture_width, picture_height, 1},
+                                            .mipLevels = 1,
+                                            .arrayLayers = 1,
+                                            .usage = usage});
   result.memory = allocate(device_.getImageMemoryRequirements(*result.image), vk::MemoryPropertyFlagBits::eDeviceLocal);
   device_.bindImageMemory(*result.image, *result.memory, 0);
-  result.view = device_.createImageViewUnique({.image = *result.image, .viewType = vk::ImageViewType::e2D,
-                                               .format = format, .subresourceRange = {aspect, 0, 1, 0, 1}});
+  result.view = device_.createImageViewUnique({.image = *result.image,
+                                               .viewType = vk::ImageViewType::e2D,
+                                               .format = format,
+                                               .subresourceRange = {aspect, 0, 1, 0, 1}});
   return result;
 }
 
 void StubHost::make_visibility_buffer(uint32_t lights) {
   const vk::DeviceSize size = sizeof(float) * picture_width * picture_height * (lights + 1);
-  visibility_ = device_.createBufferUnique({.size = size, .usage = vk::BufferUsageFlagBits::eStorageBuffer |
-                                                                   vk::BufferUsageFlagBits::eShaderDeviceAddress});
+  visibility_ = device_.createBufferUnique(
+      {.size = size, .usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress});
   visibility_memory_ = allocate(device_.getBufferMemoryRequirements(*visibility_),
                                 vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
   device_.bindBufferMemory(*visibility_, *visibility_memory_, 0);
@@ -116,13 +121,17 @@ void StubHost::make_set() {
   set_layout_ = device_.createDescriptorSetLayoutUnique({.bindingCount = 2, .pBindings = bindings});
   const vk::DescriptorPoolSize size{vk::DescriptorType::eSampledImage, 2};
   descriptor_pool_ = device_.createDescriptorPoolUnique({.maxSets = 1, .poolSizeCount = 1, .pPoolSizes = &size});
-  set_ = device_.allocateDescriptorSets(
-      {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_}).front();
+  set_ = device_
+             .allocateDescriptorSets(
+                 {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_})
+             .front();
   const vk::DescriptorImageInfo images[] = {
       {.imageView = *depth_.view, .imageLayout = vk::ImageLayout::eDepthReadOnlyOptimal},
       {.imageView = *plain_normal_.view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal}};
-  const vk::WriteDescriptorSet write{.dstSet = set_, .descriptorCount = 1,
-                                     .descriptorType = vk::DescriptorType::eSampledImage, .pImageInfo = &images[0]};
+  const vk::WriteDescriptorSet write{.dstSet = set_,
+                                     .descriptorCount = 1,
+                                     .descriptorType = vk::DescriptorType::eSampledImage,
+                                     .pImageInfo = &images[0]};
   auto second = write;
   second.dstBinding = 1;
   second.pImageInfo = &images[1];
@@ -137,7 +146,9 @@ vk::UniquePipeline StubHost::make_draw_pipeline(const Convention& convention) co
       .mapEntryCount = 1, .pMapEntries = &entry, .dataSize = sizeof(encoding), .pData = &encoding};
   const vk::PipelineShaderStageCreateInfo stages[] = {
       {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
-      {.stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main",
+      {.stage = vk::ShaderStageFlagBits::eFragment,
+       .module = *fragment,
+       .pName = "main",
        .pSpecializationInfo = &constants}};
   const vk::PipelineVertexInputStateCreateInfo input;
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
@@ -148,21 +159,30 @@ vk::UniquePipeline StubHost::make_draw_pipeline(const Convention& convention) co
   const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1};
   const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = vk::SampleCountFlagBits::e1};
   const vk::PipelineDepthStencilStateCreateInfo depth{
-      .depthTestEnable = true, .depthWriteEnable = true,
+      .depthTestEnable = true,
+      .depthWriteEnable = true,
       .depthCompareOp = convention.near_is_one ? vk::CompareOp::eGreater : vk::CompareOp::eLess};
   using Channel = vk::ColorComponentFlagBits;
-  const vk::PipelineColorBlendAttachmentState write{
-      .colorWriteMask = Channel::eR | Channel::eG | Channel::eB | Channel::eA};
+  const vk::PipelineColorBlendAttachmentState write{.colorWriteMask =
+                                                        Channel::eR | Channel::eG | Channel::eB | Channel::eA};
   const vk::PipelineColorBlendAttachmentState writes[] = {write, write};
   const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 2, .pAttachments = writes};
   const vk::Format formats[] = {normal_format, normal_format};
   const vk::PipelineRenderingCreateInfo rendering{
       .colorAttachmentCount = 2, .pColorAttachmentFormats = formats, .depthAttachmentFormat = depth_format};
-  return device_.createGraphicsPipelineUnique(nullptr, {
-      .pNext = &rendering, .stageCount = 2, .pStages = stages, .pVertexInputState = &input,
-      .pInputAssemblyState = &assembly, .pViewportState = &viewport, .pRasterizationState = &raster,
-      .pMultisampleState = &samples, .pDepthStencilState = &depth, .pColorBlendState = &blend,
-      .layout = *draw_layout_}).value;
+  return device_
+      .createGraphicsPipelineUnique(nullptr, {.pNext = &rendering,
+                                              .stageCount = 2,
+                                              .pStages = stages,
+                                              .pVertexInputState = &input,
+                                              .pInputAssemblyState = &assembly,
+                                              .pViewportState = &viewport,
+                                              .pRasterizationState = &raster,
+                                              .pMultisampleState = &samples,
+                                              .pDepthStencilState = &depth,
+                                              .pColorBlendState = &blend,
+                                              .layout = *draw_layout_})
+      .value;
 }
 
 void StubHost::make_read_pipeline(vk::DescriptorSetLayout umbrage_layout) {
@@ -171,9 +191,11 @@ void StubHost::make_read_pipeline(vk::DescriptorSetLayout umbrage_layout) {
   read_layout_ = device_.createPipelineLayoutUnique(
       {.setLayoutCount = 2, .pSetLayouts = sets, .pushConstantRangeCount = 1, .pPushConstantRanges = &range});
   const auto shader = make_shader(device_, read_visibility_spirv);
-  read_ = device_.createComputePipelineUnique(nullptr, {
-      .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
-      .layout = *read_layout_}).value;
+  read_ = device_
+              .createComputePipelineUnique(
+                  nullptr, {.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
+                            .layout = *read_layout_})
+              .value;
 }
 
 void StubHost::to_attachments(vk::CommandBuffer commands) const {
@@ -231,8 +253,11 @@ void StubHost::draw(vk::CommandBuffer commands, const Scene& scene, const Conven
   auto encoded = plain;
   encoded.imageView = *normal_.view;
   const vk::RenderingAttachmentInfo colors[] = {plain, encoded};
-  commands.beginRendering({.renderArea = {{0, 0}, {picture_width, picture_height}}, .layerCount = 1,
-                           .colorAttachmentCount = 2, .pColorAttachments = colors, .pDepthAttachment = &depth});
+  commands.beginRendering({.renderArea = {{0, 0}, {picture_width, picture_height}},
+                           .layerCount = 1,
+                           .colorAttachmentCount = 2,
+                           .pColorAttachments = colors,
+                           .pDepthAttachment = &depth});
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *draw_);
   for (const Box& box : scene.boxes) {
     const DrawPush push{vulkan_clip(convention), box.center_ws, box.half_extent};
@@ -259,9 +284,10 @@ void StubHost::read(vk::CommandBuffer commands, const umbrage::ShadowSystem& sys
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *read_layout_, 0, {set_, shadows.set}, {});
   commands.pushConstants(*read_layout_, vk::ShaderStageFlagBits::eCompute, 0, sizeof(push), &push);
   commands.dispatch(picture_width / 8, picture_height / 8, 1);
-  const vk::MemoryBarrier2 to_host{
-      .srcStageMask = vk::PipelineStageFlagBits2::eComputeShader, .srcAccessMask = vk::AccessFlagBits2::eShaderWrite,
-      .dstStageMask = vk::PipelineStageFlagBits2::eHost, .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+  const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eComputeShader,
+                                   .srcAccessMask = vk::AccessFlagBits2::eShaderWrite,
+                                   .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                   .dstAccessMask = vk::AccessFlagBits2::eHostRead};
   commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
 }
 

@@ -13,8 +13,14 @@ constexpr std::array<uint32_t, 36> box_indices{0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 
 
 /// Corners of a box of half extent 1, x scaled by `x_sign`.
 std::array<umbrage::Vec3, 8> box_positions(float x_sign) {
-  return {{{-x_sign, -1, -1}, {x_sign, -1, -1}, {x_sign, 1, -1}, {-x_sign, 1, -1},
-           {-x_sign, -1, 1}, {x_sign, -1, 1}, {x_sign, 1, 1}, {-x_sign, 1, 1}}};
+  return {{{-x_sign, -1, -1},
+           {x_sign, -1, -1},
+           {x_sign, 1, -1},
+           {-x_sign, 1, -1},
+           {-x_sign, -1, 1},
+           {x_sign, -1, 1},
+           {x_sign, 1, 1},
+           {-x_sign, 1, 1}}};
 }
 
 umbrage::Vec3 vec3(glm::vec3 v) { return {v.x, v.y, v.z}; }
@@ -31,14 +37,20 @@ auto attempt(const Edit& edit, const std::function<bool(const umbrage::Error&)>&
 
 Scene Scene::room(glm::vec3 offset) {
   Scene scene;
-  scene.boxes = {{{0, -0.5f, 0}, {8, 0.5f, 6}},          {{0, 1.2f, 0}, {1.5f, 0.1f, 1}},
-                 {{-1.2f, 0.55f, 0}, {0.1f, 0.55f, 0.1f}}, {{1.2f, 0.55f, 0}, {0.1f, 0.55f, 0.1f}},
-                 {{-4, 1.5f, -2}, {0.4f, 1.5f, 0.4f}},    {{4, 1.5f, 2}, {0.4f, 1.5f, 0.4f}}};
+  scene.boxes = {{{0, -0.5f, 0}, {8, 0.5f, 6}},
+                 {{0, 1.2f, 0}, {1.5f, 0.1f, 1}},
+                 {{-1.2f, 0.55f, 0}, {0.1f, 0.55f, 0.1f}},
+                 {{1.2f, 0.55f, 0}, {0.1f, 0.55f, 0.1f}},
+                 {{-4, 1.5f, -2}, {0.4f, 1.5f, 0.4f}},
+                 {{4, 1.5f, 2}, {0.4f, 1.5f, 0.4f}}};
   const glm::vec3 points[] = {{3, 3, 1}, {-3, 2.5f, 2}, {0, 4, -3}, {-5, 1, 0}};
-  for (const glm::vec3& point : points)
-    scene.lights.push_back({.position = vec3(point), .range_m = 9});
-  scene.lights.push_back({.type = umbrage::LightType::spot, .position = {0, 5, 3}, .direction = {0, -1, -0.6f},
-                          .range_m = 12, .inner_cone_rad = 0.4f, .outer_cone_rad = 0.7f});
+  for (const glm::vec3& point : points) scene.lights.push_back({.position = vec3(point), .range_m = 9});
+  scene.lights.push_back({.type = umbrage::LightType::spot,
+                          .position = {0, 5, 3},
+                          .direction = {0, -1, -0.6f},
+                          .range_m = 12,
+                          .inner_cone_rad = 0.4f,
+                          .outer_cone_rad = 0.7f});
   for (uint32_t i = 0; i < scene.lights.size(); i++) {
     auto& light = scene.lights[i];
     light.host_index = i;

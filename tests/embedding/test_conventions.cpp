@@ -117,14 +117,15 @@ void expect_cones(const Visibility& found, umbrage::NormalEncoding encoding, con
     narrow += cosine > 0.5f;
   }
   EXPECT_EQ(wrong, 0u) << name << ": of " << found.cone_cosines.size();
-  if (encoding == umbrage::NormalEncoding::none) EXPECT_EQ(narrow, 0u) << name;
-  else EXPECT_GT(narrow, found.cone_cosines.size() / 4) << name;
+  if (encoding == umbrage::NormalEncoding::none)
+    EXPECT_EQ(narrow, 0u) << name;
+  else
+    EXPECT_GT(narrow, found.cone_cosines.size() / 4) << name;
 }
 
 class Conventions : public testing::Test {
  protected:
-  Conventions()
-      : device_(take(umbrage::HeadlessDevice::create({.get_instance_proc_addr = vkGetInstanceProcAddr}))) {}
+  Conventions() : device_(take(umbrage::HeadlessDevice::create({.get_instance_proc_addr = vkGetInstanceProcAddr}))) {}
 
   Visibility render(const Scene& scene, const Convention& convention) {
     auto system = take(umbrage::ShadowSystem::create(device_.desc(), {.budget_mib = 32}));

@@ -30,8 +30,10 @@ class FailingCalls : public testing::Test {
   static void expect_error(const umbrage::Error& error, size_t n, VkResult result) {
     EXPECT_FALSE(error.message.empty()) << n;
     EXPECT_EQ(error.message.find('\n'), std::string::npos) << error.message;
-    if (result == VK_ERROR_DEVICE_LOST) EXPECT_EQ(error.code, ErrorCode::device_lost) << error.message;
-    else EXPECT_EQ(error.code, ErrorCode::out_of_memory) << failing_vulkan::failed_call() << ": " << error.message;
+    if (result == VK_ERROR_DEVICE_LOST)
+      EXPECT_EQ(error.code, ErrorCode::device_lost) << error.message;
+    else
+      EXPECT_EQ(error.code, ErrorCode::out_of_memory) << failing_vulkan::failed_call() << ": " << error.message;
   }
 
   umbrage::HeadlessDevice device_;

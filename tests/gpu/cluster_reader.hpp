@@ -36,7 +36,8 @@ struct DeviceClusters {
   uint32_t cluster_of(uint32_t tile, uint32_t slice) const {
     if (!occupied(tile, slice)) return shared::NoIndex;
     const shared::ClusterWord word = words[tile * shared::SliceWords + slice / 32];
-    const uint32_t index = word.first + static_cast<uint32_t>(shared::bitCount(word.occupied & ((1u << slice % 32) - 1)));
+    const uint32_t index =
+        word.first + static_cast<uint32_t>(shared::bitCount(word.occupied & ((1u << slice % 32) - 1)));
     return index < record.cluster_capacity ? index : shared::NoIndex;
   }
   std::vector<uint32_t> lights_of(uint32_t cluster) const {

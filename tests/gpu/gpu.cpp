@@ -72,9 +72,12 @@ Image::Image(const Gpu& gpu, VkFormat format, VkImageAspectFlags aspect, uint32_
 }
 
 Image::Image(Image&& other) noexcept
-    : device_(other.device_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)),
-      view_(std::exchange(other.view_, VK_NULL_HANDLE)), memory_(std::exchange(other.memory_, VK_NULL_HANDLE)),
-      aspect_(other.aspect_), extent_(other.extent_) {}
+    : device_(other.device_),
+      handle_(std::exchange(other.handle_, VK_NULL_HANDLE)),
+      view_(std::exchange(other.view_, VK_NULL_HANDLE)),
+      memory_(std::exchange(other.memory_, VK_NULL_HANDLE)),
+      aspect_(other.aspect_),
+      extent_(other.extent_) {}
 
 Image::~Image() {
   vkDestroyImageView(device_, view_, nullptr);
@@ -97,7 +100,13 @@ Program::Program(const Gpu& gpu, std::span<const uint32_t> spirv, std::span<cons
   VkShaderModule shader;
   check(vkCreateShaderModule(device_, &words, nullptr, &shader), "vkCreateShaderModule");
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, shader, "main", nullptr};
+  info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                nullptr,
+                0,
+                VK_SHADER_STAGE_COMPUTE_BIT,
+                shader,
+                "main",
+                nullptr};
   info.layout = layout_;
   const VkResult made = vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
   vkDestroyShaderModule(device_, shader, nullptr);
@@ -114,9 +123,12 @@ Gpu::Gpu() {
   const MessageCallback collect = [](void* user, Severity, std::string_view text) {
     static_cast<Gpu*>(user)->messages_.emplace_back(text);
   };
-  owner_ = std::make_unique<HeadlessDevice>(take(HeadlessDevice::create(
-      {.get_instance_proc_addr = vkGetInstanceProcAddr, .validate = true, .message = collect, .message_user = this,
-       .wanted = {.vertex_layer = true, .sparse_residency = true, .shader_residency = true}})));
+  owner_ = std::make_unique<HeadlessDevice>(take(
+      HeadlessDevice::create({.get_instance_proc_addr = vkGetInstanceProcAddr,
+                              .validate = true,
+                              .message = collect,
+                              .message_user = this,
+                              .wanted = {.vertex_layer = true, .sparse_residency = true, .shader_residency = true}})));
   keep_validation_layers();
   desc_ = owner_->desc();
   queue_ = owner_->queue();
@@ -129,7 +141,8 @@ Gpu::Gpu() {
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   pool.queueFamilyIndex = desc_.queue_family;
   check(vkCreateCommandPool(desc_.device, &pool, nullptr, &commands_), "vkCreateCommandPool");
-  const std::array<VkDescriptorPoolSize, 2> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16}}};
+  const std::array<VkDescriptorPoolSize, 2> sizes{
+      {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16}}};
   VkDescriptorPoolCreateInfo sets{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   sets.flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT;
   sets.maxSets = 2;
@@ -156,7 +169,7 @@ Gpu::~Gpu() {
   factory_.reset();
   memory_.reset();
   device_.reset();
-  owner_.reset();   // the layers name what has been left behind
+  owner_.reset();  // the layers name what has been left behind
   for (const std::string& message : messages_) ADD_FAILURE() << "validation: " << message;
 }
 

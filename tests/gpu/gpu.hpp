@@ -90,7 +90,9 @@ class Gpu {
   /// A device buffer that holds these bytes.
   gpu::Buffer upload(const void* data, size_t bytes);
   template <class T>
-  gpu::Buffer upload(const std::vector<T>& values) { return upload(values.data(), values.size() * sizeof(T)); }
+  gpu::Buffer upload(const std::vector<T>& values) {
+    return upload(values.data(), values.size() * sizeof(T));
+  }
   /// Fills an image, tightly packed, and leaves it in a layout that shaders read.
   void fill(const Image&, const void* texels, size_t bytes, VkImageLayout);
   /// Copies from a device buffer after everything submitted before.

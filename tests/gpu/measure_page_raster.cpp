@@ -27,7 +27,9 @@ class Stopwatch {
     vkCmdResetQueryPool(commands, pool_, 0, 2);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, 0);
   }
-  void stop(VkCommandBuffer commands) { vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, 1); }
+  void stop(VkCommandBuffer commands) {
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, 1);
+  }
   double ms() {
     uint64_t ticks[2];
     check(vkGetQueryPoolResults(gpu_.desc().device, pool_, 0, 2, sizeof ticks, ticks, sizeof(uint64_t),
@@ -71,9 +73,11 @@ std::vector<Case> cases() {
   for (uint32_t i = 0; i < 30; ++i)
     room.instances.push_back(
         {.mesh = 0,
-         .world_from_mesh = random_affine(i, {2 * std::sin(2.4f * float(i)), std::sin(1.3f * float(i)), 2 * std::cos(2.4f * float(i))})});
+         .world_from_mesh = random_affine(
+             i, {2 * std::sin(2.4f * float(i)), std::sin(1.3f * float(i)), 2 * std::cos(2.4f * float(i))})});
   out.push_back({"room of boxes, cube of 1024 texels", room, {cube_map({0.1f, 2.5f, 0}, 0.05f, 1024)}});
-  if (!getenv("NOBIG")) out.push_back({"room of boxes, cube of 4096 texels", room, {cube_map({0.1f, 2.5f, 0}, 0.05f, 4096)}});
+  if (!getenv("NOBIG"))
+    out.push_back({"room of boxes, cube of 4096 texels", room, {cube_map({0.1f, 2.5f, 0}, 0.05f, 4096)}});
   return out;
 }
 
@@ -87,7 +91,8 @@ TEST_F(MeasuresPageWriters, DISABLED_SideBySide) {
     std::vector<gpu::Buffer> retired;
     take(compute.reserve(gpu().device(), gpu().memory(), 65536, rig.pool_bytes(), retired));
     uint64_t triangles = 0, views = 0;
-    for (const TestInstance& instance : one.scene.instances) triangles += one.scene.meshes[instance.mesh].indices.size() / 3;
+    for (const TestInstance& instance : one.scene.instances)
+      triangles += one.scene.meshes[instance.mesh].indices.size() / 3;
     for (const PageMap& map : one.maps) views += map.views.size();
     double best[2] = {1e30, 1e30}, processor[2] = {1e30, 1e30};
     for (int repeat = 0; repeat < 5; ++repeat) {
@@ -107,8 +112,9 @@ TEST_F(MeasuresPageWriters, DISABLED_SideBySide) {
       }
     }
     for (int writer = 0; writer < 2; ++writer)
-      std::printf("%-36s %-9s %9.3f ms device %9.3f ms processors %8.3f Mtri/s\n", one.name, writer ? "fragments" : "compute", best[writer],
-                  processor[writer], double(triangles * views) * 1e-3 / best[writer]);
+      std::printf("%-36s %-9s %9.3f ms device %9.3f ms processors %8.3f Mtri/s\n", one.name,
+                  writer ? "fragments" : "compute", best[writer], processor[writer],
+                  double(triangles * views) * 1e-3 / best[writer]);
   }
 }
 

@@ -18,8 +18,10 @@ struct PageMap {
   double marked = 1;
 };
 PageMap cube_map(const glm::vec3& origin, float near_m, uint32_t resolution, double marked = 1);
-PageMap spot_map(const glm::vec3& origin, const glm::vec3& direction, float cone_rad, float near_m, uint32_t resolution, double marked = 1);
-PageMap ortho_map(const glm::vec3& direction, const glm::vec3& box_min, const glm::vec3& box_max, uint32_t resolution, double marked = 1);
+PageMap spot_map(const glm::vec3& origin, const glm::vec3& direction, float cone_rad, float near_m, uint32_t resolution,
+                 double marked = 1);
+PageMap ortho_map(const glm::vec3& direction, const glm::vec3& box_min, const glm::vec3& box_max, uint32_t resolution,
+                  double marked = 1);
 
 class PageRig {
  public:

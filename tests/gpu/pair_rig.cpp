@@ -22,7 +22,8 @@ struct PairPush {
 
 gpu::Buffer upload_samples(Gpu& gpu, const Receivers& seen) {
   std::vector<PairSample> samples;
-  for (size_t i = 0; i < seen.depth.size(); ++i) samples.push_back({seen.positions[i], glm::vec3(seen.normals[i]), seen.depth[i]});
+  for (size_t i = 0; i < seen.depth.size(); ++i)
+    samples.push_back({seen.positions[i], glm::vec3(seen.normals[i]), seen.depth[i]});
   return gpu.upload(samples);
 }
 
@@ -61,7 +62,9 @@ size_t differences(const Pairs& a, const Pairs& b) {
 }
 
 PairRig::PairRig(Gpu& gpu, StaticSettings settings, const SeenScene& seen)
-    : SystemRig(gpu, settings, settings.store), samples_(upload_samples(gpu, seen.seen)), program_(make_program(*this)) {
+    : SystemRig(gpu, settings, settings.store),
+      samples_(upload_samples(gpu, seen.seen)),
+      program_(make_program(*this)) {
   add(seen.scene);
   show(seen.camera, seen.seen);
 }
@@ -76,7 +79,9 @@ void PairRig::replace(const SeenScene& seen) {
   show(seen.camera, seen.seen);
 }
 
-Pairs PairRig::evaluate(const FrameSettings& settings) { return evaluate(settings, camera().id, receivers(), samples_); }
+Pairs PairRig::evaluate(const FrameSettings& settings) {
+  return evaluate(settings, camera().id, receivers(), samples_);
+}
 
 Pairs PairRig::evaluate(const FrameSettings& settings, CameraId id, const Receivers& seen) {
   return evaluate(settings, id, seen, upload_samples(gpu(), seen));
@@ -85,13 +90,15 @@ Pairs PairRig::evaluate(const FrameSettings& settings, CameraId id, const Receiv
 Pairs PairRig::evaluate(const FrameSettings& settings, CameraId id, const Receivers& seen, const gpu::Buffer& samples) {
   const uint32_t width = seen.width, height = seen.height, lights = static_cast<uint32_t>(light_ids.size());
   const size_t pixels = size_t(width) * height;
-  const gpu::Buffer visibility = gpu().buffer(std::max<size_t>(pixels * lights, 1) * sizeof(float), gpu::MemoryKind::device, "visibility");
+  const gpu::Buffer visibility =
+      gpu().buffer(std::max<size_t>(pixels * lights, 1) * sizeof(float), gpu::MemoryKind::device, "visibility");
   const gpu::Buffer clusters = gpu().buffer(pixels * sizeof(uint32_t), gpu::MemoryKind::device, "clusters of pixels");
   frame(settings, [&](VkCommandBuffer commands) {
     const ShaderInterface shadows = system().shader_interface(id);
-    program_.dispatch(commands, shadows.set,
-                      PairPush{shadows.frame, samples.address(), visibility.address(), clusters.address(), width, height, lights},
-                      (width + 7) / 8, (height + 7) / 8);
+    program_.dispatch(
+        commands, shadows.set,
+        PairPush{shadows.frame, samples.address(), visibility.address(), clusters.address(), width, height, lights},
+        (width + 7) / 8, (height + 7) / 8);
   });
   Pairs pairs{lights, gpu().download<float>(visibility, pixels * lights), gpu().download<uint32_t>(clusters, pixels),
               system().statistics()};
@@ -148,20 +155,26 @@ TestScene lights_in_bad_places(uint32_t seed) {
   TestScene scene = mixed_scene(30, 0, seed);
   const uint32_t wall = static_cast<uint32_t>(scene.meshes.size());
   scene.meshes.push_back(box_mesh());
-  scene.instances.push_back({.mesh = wall, .world_from_mesh = affine(glm::mat3(3, 0, 0, 0, 2, 0, 0, 0, 0.2f), {0, 1, -4})});
-  const glm::vec3 places[] = {{0, 1, -4}, {0.5f, 1, -3.8f}, {1, 0, 1}, {4, 2, -3}, kEye, kEye + glm::vec3(0.01f, 0, -0.02f)};
+  scene.instances.push_back(
+      {.mesh = wall, .world_from_mesh = affine(glm::mat3(3, 0, 0, 0, 2, 0, 0, 0, 0.2f), {0, 1, -4})});
+  const glm::vec3 places[] = {
+      {0, 1, -4}, {0.5f, 1, -3.8f}, {1, 0, 1}, {4, 2, -3}, kEye, kEye + glm::vec3(0.01f, 0, -0.02f)};
   for (const glm::vec3& place : places) {
     scene.lights.push_back({.position = to_vec3(place), .range_m = 12});
-    scene.lights.push_back(
-        {.type = LightType::spot, .position = to_vec3(place), .direction = {0.1f, -0.3f, -1}, .range_m = 20, .outer_cone_rad = 0.9f});
+    scene.lights.push_back({.type = LightType::spot,
+                            .position = to_vec3(place),
+                            .direction = {0.1f, -0.3f, -1},
+                            .range_m = 20,
+                            .outer_cone_rad = 0.9f});
   }
   return scene;
 }
 }  // namespace
 
 SeenScene balls_scene(uint32_t instances, uint32_t lights, uint32_t seed, uint32_t width, uint32_t height) {
-  return seen_scene(std::to_string(lights) + " lights on " + std::to_string(instances) + " casters", mixed_scene(instances, lights, seed),
-                    perspective_camera(kEye, kTarget, width, height), balls_on_ground);
+  return seen_scene(std::to_string(lights) + " lights on " + std::to_string(instances) + " casters",
+                    mixed_scene(instances, lights, seed), perspective_camera(kEye, kTarget, width, height),
+                    balls_on_ground);
 }
 
 std::vector<SeenScene> hard_scenes() {
@@ -172,10 +185,16 @@ std::vector<SeenScene> hard_scenes() {
   TestScene far = mixed_scene(20, 0, 5);
   for (const float range : {300.0f, 1e5f}) {
     far.lights.push_back({.position = {3, 4, 2}, .range_m = range});
-    far.lights.push_back(
-        {.type = LightType::spot, .position = {-30, 40, 2}, .direction = {3, -4, 0}, .range_m = range, .outer_cone_rad = 0.4f});
-    far.lights.push_back(
-        {.type = LightType::spot, .position = {0, 8, 0}, .direction = {0, -1, 0}, .range_m = range, .outer_cone_rad = 1.5f});
+    far.lights.push_back({.type = LightType::spot,
+                          .position = {-30, 40, 2},
+                          .direction = {3, -4, 0},
+                          .range_m = range,
+                          .outer_cone_rad = 0.4f});
+    far.lights.push_back({.type = LightType::spot,
+                          .position = {0, 8, 0},
+                          .direction = {0, -1, 0},
+                          .range_m = range,
+                          .outer_cone_rad = 1.5f});
   }
   all.push_back(seen_scene("ranges beyond the scene", far, camera, balls_on_ground));
 
@@ -190,11 +209,12 @@ std::vector<SeenScene> hard_scenes() {
   degenerate.meshes.push_back(degenerate_mesh());
   for (uint32_t i = 0; i < 10; ++i)
     degenerate.instances.push_back({.mesh = 3, .world_from_mesh = random_affine(i, {float(i) - 5, 1, float(i % 3)})});
-  degenerate.instances.push_back({.mesh = 1, .world_from_mesh = affine(glm::mat3(1, 0, 0, 0, 1e-6f, 0, 0, 0, 1), {0, 2, 0})});
+  degenerate.instances.push_back(
+      {.mesh = 1, .world_from_mesh = affine(glm::mat3(1, 0, 0, 0, 1e-6f, 0, 0, 0, 1), {0, 2, 0})});
   all.push_back(seen_scene("degenerate triangles", degenerate, camera, balls_on_ground));
 
-  all.push_back(
-      seen_scene("an orthographic camera", mixed_scene(20, 20, 8), orthographic_camera(kEye, kTarget, 96, 64, 8, 50), balls_on_ground));
+  all.push_back(seen_scene("an orthographic camera", mixed_scene(20, 20, 8),
+                           orthographic_camera(kEye, kTarget, 96, 64, 8, 50), balls_on_ground));
   return all;
 }
 

@@ -24,10 +24,12 @@ StaticSettings with(StaticSettings settings, Store store) {
 }  // namespace
 
 SystemRig::SystemRig(Gpu& gpu, const StaticSettings& settings, Store store)
-    : gpu_(gpu), system_(take(ShadowSystem::create(gpu.desc(), with(settings, store)))),
+    : gpu_(gpu),
+      system_(take(ShadowSystem::create(gpu.desc(), with(settings, store)))),
       mask_(gpu, VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_ASPECT_COLOR_BIT, kMaskSide, kMaskSide) {
   std::vector<uint32_t> checkers(kMaskSide * kMaskSide);
-  for (uint32_t i = 0; i < checkers.size(); ++i) checkers[i] = (i / 4 + i / kMaskSide / 4) % 2 ? 0xffffffffu : 0x00ffffffu;
+  for (uint32_t i = 0; i < checkers.size(); ++i)
+    checkers[i] = (i / 4 + i / kMaskSide / 4) % 2 ? 0xffffffffu : 0x00ffffffu;
   gpu.fill(mask_, checkers.data(), checkers.size() * sizeof(uint32_t), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   mask_id_ = take(system_.add_mask(mask_.view()));
 }
@@ -41,8 +43,11 @@ MeshId SystemRig::add(const TestMesh& mesh) {
 }
 
 InstanceId SystemRig::add(const TestInstance& instance) {
-  instance_ids.push_back(take(system_.add_instance({.mesh = mesh_ids[instance.mesh], .world_from_mesh = instance.world_from_mesh,
-                                                    .mobility = instance.mobility, .light_mask = instance.light_mask, .casts = instance.casts})));
+  instance_ids.push_back(take(system_.add_instance({.mesh = mesh_ids[instance.mesh],
+                                                    .world_from_mesh = instance.world_from_mesh,
+                                                    .mobility = instance.mobility,
+                                                    .light_mask = instance.light_mask,
+                                                    .casts = instance.casts})));
   return instance_ids.back();
 }
 
@@ -53,10 +58,13 @@ void SystemRig::add(const TestScene& scene) {
 }
 
 SystemRig::Picture SystemRig::fill_picture(CameraDesc& camera, const Receivers& receivers) {
-  Picture made{std::make_unique<Image>(gpu_, VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, camera.width, camera.height),
-               std::make_unique<Image>(gpu_, VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT, camera.width, camera.height)};
+  Picture made{
+      std::make_unique<Image>(gpu_, VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, camera.width, camera.height),
+      std::make_unique<Image>(gpu_, VK_FORMAT_R32G32B32A32_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT, camera.width,
+                              camera.height)};
   gpu_.fill(*made.depth, receivers.depth.data(), receivers.depth.size() * sizeof(float), camera.depth_layout);
-  gpu_.fill(*made.normals, receivers.normals.data(), receivers.normals.size() * sizeof(glm::vec4), camera.normal_layout);
+  gpu_.fill(*made.normals, receivers.normals.data(), receivers.normals.size() * sizeof(glm::vec4),
+            camera.normal_layout);
   camera.depth = made.depth->view();
   if (camera.normal_encoding != NormalEncoding::none) camera.normal = made.normals->view();
   return made;
@@ -85,7 +93,8 @@ FrameDesc SystemRig::describe(const FrameSettings& settings) {
   return {.serial = serial_, .completed_serial = serial_ - 1, .settings = settings, .cameras = cameras_};
 }
 
-void SystemRig::frame(const FrameSettings& settings, const std::function<void(VkCommandBuffer)>& after, VkPipelineStageFlags2 consumers) {
+void SystemRig::frame(const FrameSettings& settings, const std::function<void(VkCommandBuffer)>& after,
+                      VkPipelineStageFlags2 consumers) {
   FrameDesc desc = describe(settings);
   if (consumers) desc.consumer_stages = consumers;
   take(system_.begin_frame(desc));
@@ -117,17 +126,22 @@ Atlas SystemRig::atlas() {
   const VkDescriptorSetLayout layout = system_.descriptor_set_layout();
   const Program program(gpu_, kReadAtlas, {&layout, 1});
   gpu_.run([&](VkCommandBuffer commands) {
-    program.dispatch(commands, system_.shader_interface(camera_.id).set, ReadAtlasPush{target.address(), out.width, out.height},
-                     (out.width + 15) / 16, (out.height + 15) / 16);
+    program.dispatch(commands, system_.shader_interface(camera_.id).set,
+                     ReadAtlasPush{target.address(), out.width, out.height}, (out.width + 15) / 16,
+                     (out.height + 15) / 16);
   });
   out.depth = gpu_.download<float>(target, texels);
   return out;
 }
 
-std::vector<shared::ShadowView> SystemRig::views() { return gpu_.download<shared::ShadowView>(stages().views.buffer(), state().views); }
+std::vector<shared::ShadowView> SystemRig::views() {
+  return gpu_.download<shared::ShadowView>(stages().views.buffer(), state().views);
+}
 std::vector<shared::LightRecord> SystemRig::lights() {
   return gpu_.download<shared::LightRecord>(stages().scene.light_buffer(), stages().scene.light_slots());
 }
-std::vector<uint32_t> SystemRig::used_lights() { return gpu_.download<uint32_t>(stages().clusters.used_lights(), stages().scene.light_slots()); }
+std::vector<uint32_t> SystemRig::used_lights() {
+  return gpu_.download<uint32_t>(stages().clusters.used_lights(), stages().scene.light_slots());
+}
 
 }  // namespace umbrage::test

@@ -30,7 +30,8 @@ class SystemRig {
   const Receivers& receivers() const { return receivers_; }
 
   /// One frame from begin_frame to the device being idle; `after` records behind it. Its statistics are collected.
-  void frame(const FrameSettings& = {}, const std::function<void(VkCommandBuffer)>& after = {}, VkPipelineStageFlags2 consumers = 0);
+  void frame(const FrameSettings& = {}, const std::function<void(VkCommandBuffer)>& after = {},
+             VkPipelineStageFlags2 consumers = 0);
   /// The next frame's description; counts serials.
   FrameDesc describe(const FrameSettings&);
 

@@ -44,14 +44,14 @@ enum class Alpha : uint8_t { solid, hole, unsure };
 /// The rig's mask: checkers of a quarter of the side; near a border the filter decides.
 Alpha mask_at(const glm::dvec2& uv) {
   const glm::dvec2 cell = uv * 4.0, border = glm::abs(cell - glm::round(cell));
-  if (std::min(border.x, border.y) < 0.13) return Alpha::unsure;   // half a texel and a little
+  if (std::min(border.x, border.y) < 0.13) return Alpha::unsure;  // half a texel and a little
   return (int(std::floor(cell.x)) + int(std::floor(cell.y))) % 2 ? Alpha::solid : Alpha::hole;
 }
 
 struct RayHit {
   double distance = INFINITY;
   int triangle = -1;
-  bool unsure = false;   // of a mask
+  bool unsure = false;  // of a mask
 };
 
 /// Nearest hit at least `first` along a ray, in units of the direction.
@@ -81,26 +81,30 @@ RayHit trace(const std::vector<Triangle>& triangles, const dvec3& origin, const 
 /// A view's rays, from the light's description and not from what the device made of it (the ortho fit excepted).
 struct Rays {
   std::function<dvec3(double s, double t)> origin, direction;
-  std::function<double(double)> depth;   // what the atlas holds for a distance
+  std::function<double(double)> depth;  // what the atlas holds for a distance
   double first = 0;
 };
 
 Rays rays_of(const LightDesc& light, const shared::LightRecord& record, const shared::ShadowView& view, uint32_t face) {
   const dvec3 position(to_glm(light.position));
   const double near = light.near_m > 0 ? light.near_m : light.range_m / 256;
-  Rays rays{.origin = [=](double, double) { return position; }, .depth = [=](double d) { return near / d; }, .first = near};
+  Rays rays{
+      .origin = [=](double, double) { return position; }, .depth = [=](double d) { return near / d; }, .first = near};
   if (record.views == shared::ViewsCube) {
     rays.direction = [=](double s, double t) {
-      const dvec3 zero(shared::face_direction(face, 0, 0)), right(shared::face_direction(face, 1, 0)), down(shared::face_direction(face, 0, 1));
+      const dvec3 zero(shared::face_direction(face, 0, 0)), right(shared::face_direction(face, 1, 0)),
+          down(shared::face_direction(face, 0, 1));
       return zero + (right - zero) * s + (down - zero) * t;
     };
   } else if (record.views == shared::ViewsSpot) {
     const glm::dmat3 rows(glm::transpose(shared::view_rotation(to_glm(light.direction))));
-    const double tangent = std::tan(double(light.outer_cone_rad)) * record.resolution / (record.resolution - 2.0 * shared::ViewGuardTexels);
+    const double tangent = std::tan(double(light.outer_cone_rad)) * record.resolution /
+                           (record.resolution - 2.0 * shared::ViewGuardTexels);
     rays.direction = [=](double s, double t) { return rows[2] + rows[0] * (s * tangent) + rows[1] * (t * tangent); };
   } else {
     const double half_side = 0.5 * view.side_m;
-    const dvec3 x(glm::normalize(dvec3(view.x_row))), y(glm::normalize(dvec3(view.y_row))), origin(view.origin), z_row(view.z_row);
+    const dvec3 x(glm::normalize(dvec3(view.x_row))), y(glm::normalize(dvec3(view.y_row))), origin(view.origin),
+        z_row(view.z_row);
     const dvec3 forward = glm::normalize(dvec3(to_glm(light.direction)));
     const double z_offset = view.z_offset;
     rays.origin = [=](double s, double t) { return origin + x * (s * half_side) + y * (t * half_side); };
@@ -116,8 +120,8 @@ struct Tally {
 };
 
 /// Each texel around whose centre a hundredth of a texel sees one surface (or nothing) must hold its depth.
-void expect_view(const Atlas& atlas, const shared::ShadowView& view, const Rays& rays, const std::vector<Triangle>& triangles,
-                 const std::string& what, Tally& tally) {
+void expect_view(const Atlas& atlas, const shared::ShadowView& view, const Rays& rays,
+                 const std::vector<Triangle>& triangles, const std::string& what, Tally& tally) {
   const uint32_t side = view.resolution;
   const glm::dvec2 offsets[] = {{0, 0}, {0.01, 0.01}, {-0.01, 0.01}, {0.01, -0.01}, {-0.01, -0.01}};
   for (uint32_t y = 0; y < side; ++y) {
@@ -134,7 +138,7 @@ void expect_view(const Atlas& atlas, const shared::ShadowView& view, const Rays&
         unsure = unsure || hit.unsure || (hit.triangle < 0) != (triangle < 0);
         spread = std::max(spread, std::abs(depth - expected));
       }
-      unsure = unsure || spread > 0.01 * expected;   // a silhouette, or a surface seen edge-on
+      unsure = unsure || spread > 0.01 * expected;  // a silhouette, or a surface seen edge-on
       if (unsure) {
         ++tally.unsure;
         continue;
@@ -152,15 +156,25 @@ TestScene few_casters() {
   scene.meshes = {plane_mesh(1), box_mesh(), sphere_mesh(8, 12), masked_mesh()};
   scene.instances = {{.mesh = 0, .world_from_mesh = affine(glm::mat3(7), {0, -0.5f, 0})},
                      {.mesh = 1, .world_from_mesh = random_affine(4, {2, 0.6f, 1})},
-                     {.mesh = 1, .world_from_mesh = affine(glm::mat3(0.1f, 0, 0, 0, 3, 0, 0, 0, 0.1f), {-1, 1, 0.5f}), .light_mask = 2},
+                     {.mesh = 1,
+                      .world_from_mesh = affine(glm::mat3(0.1f, 0, 0, 0, 3, 0, 0, 0, 0.1f), {-1, 1, 0.5f}),
+                      .light_mask = 2},
                      {.mesh = 2, .world_from_mesh = random_affine(5, {-2.5f, 1.5f, -2})},
                      {.mesh = 3, .world_from_mesh = affine(glm::mat3(1.5f), {0.3f, 3.1f, 0.2f})},
                      {.mesh = 3, .world_from_mesh = random_affine(8, {0.5f, 1.2f, -2.5f})},
                      {.mesh = 1, .world_from_mesh = affine(glm::mat3(1), {0, 0.5f, 3}), .casts = false}};
   scene.lights = {{.position = {0.2f, 2, 0.1f}, .range_m = 9},
-                  {.position = {-3, 1, 2}, .range_m = 12, .max_resolution = 40},   // of which 32 are used
-                  {.type = LightType::spot, .position = {3, 4, -1}, .direction = {-0.6f, -1, 0.2f}, .range_m = 12, .outer_cone_rad = 0.6f},
-                  {.type = LightType::spot, .position = {1, 2.4f, 1}, .direction = {-0.3f, -0.2f, -1}, .range_m = 8, .outer_cone_rad = 1.4f},
+                  {.position = {-3, 1, 2}, .range_m = 12, .max_resolution = 40},  // of which 32 are used
+                  {.type = LightType::spot,
+                   .position = {3, 4, -1},
+                   .direction = {-0.6f, -1, 0.2f},
+                   .range_m = 12,
+                   .outer_cone_rad = 0.6f},
+                  {.type = LightType::spot,
+                   .position = {1, 2.4f, 1},
+                   .direction = {-0.3f, -0.2f, -1},
+                   .range_m = 8,
+                   .outer_cone_rad = 1.4f},
                   {.type = LightType::directional, .direction = {0.3f, -1, 0.45f}},
                   {.position = {1.8f, 1.5f, 0.9f}, .range_m = 10, .near_m = 1.3f, .light_mask = 1},
                   {.position = {5, 5, 5}, .range_m = 20, .casts_shadow = false},
@@ -188,11 +202,13 @@ TEST_F(AtlasDepth, IsThatOfRaysThroughTheTexels) {
       for (uint32_t v = 0; v < record.view_count; ++v) {
         const shared::ShadowView& view = views[record.first_view + v];
         EXPECT_EQ(view.resolution, i == 1 ? 32u : i == 7 ? 16u : 64u);
-        const std::string what = "light " + std::to_string(i) + ", view " + std::to_string(v) + (writer == Writer::traditional ? ", traditional" : "");
+        const std::string what = "light " + std::to_string(i) + ", view " + std::to_string(v) +
+                                 (writer == Writer::traditional ? ", traditional" : "");
         expect_view(atlas, view, rays_of(scene.lights[i], record, view, v), triangles, what, tally);
         for (uint32_t y = 0; y < 64; ++y)
           for (uint32_t x = 0; x < 64; ++x)
-            beyond += (x >= view.resolution || y >= view.resolution) && atlas.at(view.atlas_x + x, view.atlas_y + y) != 0;
+            beyond +=
+                (x >= view.resolution || y >= view.resolution) && atlas.at(view.atlas_x + x, view.atlas_y + y) != 0;
       }
     }
     EXPECT_EQ(beyond, 0u) << "texels drawn beyond a map that is smaller than its tile";
@@ -204,7 +220,8 @@ TEST_F(AtlasDepth, IsThatOfRaysThroughTheTexels) {
 uint64_t different(const Atlas& a, const Atlas& b) {
   EXPECT_EQ(a.depth.size(), b.depth.size());
   uint64_t count = 0;
-  for (size_t i = 0; i < std::min(a.depth.size(), b.depth.size()); ++i) count += std::memcmp(&a.depth[i], &b.depth[i], sizeof(float)) != 0;
+  for (size_t i = 0; i < std::min(a.depth.size(), b.depth.size()); ++i)
+    count += std::memcmp(&a.depth[i], &b.depth[i], sizeof(float)) != 0;
   return count;
 }
 

@@ -28,10 +28,12 @@ void expect_within_budget(PairRig& rig, const DeviceMaps& maps, uint32_t budget_
     }
   }
   std::sort(places.begin(), places.end());
-  for (size_t i = 0; i < places.size(); ++i) ASSERT_LE(places[i].second, i + 1 < places.size() ? places[i + 1].first : counters.pool_units);
+  for (size_t i = 0; i < places.size(); ++i)
+    ASSERT_LE(places[i].second, i + 1 < places.size() ? places[i + 1].first : counters.pool_units);
 
   std::map<uint32_t, LightStatus> reported;
-  for (const LightStatus& status : rig.system().degraded_lights()) EXPECT_TRUE(reported.insert({slot_of(status.light), status}).second);
+  for (const LightStatus& status : rig.system().degraded_lights())
+    EXPECT_TRUE(reported.insert({slot_of(status.light), status}).second);
   for (uint32_t slot = 0; slot < maps.light_maps.size(); ++slot) {
     const bool coarser = maps.light_maps[slot].shift > 0 && maps.light_maps[slot].count > 0;
     ASSERT_EQ(reported.contains(slot), coarser) << "slot " << slot;
@@ -99,7 +101,8 @@ TEST_F(Budget, GoesToImportantLightsFirst) {
   SeenScene scene = balls_scene(20, 0, 44);
   for (uint32_t i = 0; i < 40; ++i) {  // two of each, the later one more important
     const float x = float(i / 2 % 5) * 4 - 8, z = float(i / 10) * 4 - 8;
-    scene.scene.lights.push_back({.position = {x, 3, z}, .range_m = 6, .priority = i % 2 ? 2.0f : 1.0f, .host_index = i});
+    scene.scene.lights.push_back(
+        {.position = {x, 3, z}, .range_m = 6, .priority = i % 2 ? 2.0f : 1.0f, .host_index = i});
   }
   uint32_t uneven = 0;
   for (const uint32_t budget_mib : {4u, 6u, 9u, 12u}) {
@@ -124,7 +127,8 @@ TEST_F(Budget, GoesToImportantLightsFirst) {
       finer += important<other, coarser += important> other;
     }
     EXPECT_EQ(coarser, 0u) << budget_mib << " MiB";
-    EXPECT_TRUE(worst_important <= best_other || finer == 0) << "others are only finer where all are alike: " << budget_mib << " MiB";
+    EXPECT_TRUE(worst_important <= best_other || finer == 0)
+        << "others are only finer where all are alike: " << budget_mib << " MiB";
     uneven += finer > 0;
   }
   EXPECT_GT(uneven, 1u);

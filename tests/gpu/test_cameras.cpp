@@ -16,7 +16,8 @@ CameraDesc other_camera(uint32_t id) {
 }
 
 /// The same scene, seen by one camera alone.
-Pairs seen_alone(Gpu& gpu, const SeenScene& scene, const CameraDesc& camera, const Receivers& seen, const FrameSettings& settings) {
+Pairs seen_alone(Gpu& gpu, const SeenScene& scene, const CameraDesc& camera, const Receivers& seen,
+                 const FrameSettings& settings) {
   SeenScene own = scene;
   own.camera = camera, own.seen = seen;
   return PairRig(gpu, {}, own).settle(settings);
@@ -27,7 +28,8 @@ TEST_F(Cameras, SeeWhatEachSeesAlone) {
   std::vector<CameraDesc> others;
   for (uint32_t id = 2; id <= shared::MaxCameras; ++id) others.push_back(other_camera(id));
   others[1].normal_encoding = NormalEncoding::none;
-  const std::array<FrameSettings, 3> all{FrameSettings{}, {.receiver_boxes = ReceiverBoxes::clusters},
+  const std::array<FrameSettings, 3> all{FrameSettings{},
+                                         {.receiver_boxes = ReceiverBoxes::clusters},
                                          {.cluster_bounds = ClusterBounds::implicit_cell, .layout = MapLayout::levels}};
   for (const FrameSettings& settings : all) {
     PairRig rig(gpu(), {}, scene);
@@ -46,7 +48,8 @@ TEST_F(Cameras, SeeWhatEachSeesAlone) {
       EXPECT_GT(alone.asked(), 1000u);
       EXPECT_EQ(together.asked(), alone.asked());
       EXPECT_EQ(differences(together, alone), 0u) << "camera " << others[i].id.value;
-      EXPECT_EQ(together.statistics.unmarked_taps, 0u) << "camera " << others[i].id.value << " is answered by what was marked for it";
+      EXPECT_EQ(together.statistics.unmarked_taps, 0u)
+          << "camera " << others[i].id.value << " is answered by what was marked for it";
     }
   }
 }

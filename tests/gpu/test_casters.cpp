@@ -30,12 +30,15 @@ struct DeviceDraws {
     const culling::CasterCulling& culling = rig.stages().culling;
     const scene::GpuScene& scene = rig.stages().scene;
     const uint32_t slots = scene.caster_slots();
-    instances = gpu.download<shared::CasterInstance>(culling.instances(), std::min(counters.caster_pairs, culling.capacity()));
+    instances =
+        gpu.download<shared::CasterInstance>(culling.instances(), std::min(counters.caster_pairs, culling.capacity()));
     const auto counts = gpu.download<shared::DrawCounts>(culling.draw_counts(), 1)[0];
     opaque = gpu.download<shared::DrawCommand>(culling.commands(), counts.opaque);
-    masked = gpu.download<shared::DrawCommand>(culling.commands(), counts.masked, culling.capacity() * sizeof(shared::DrawCommand));
+    masked = gpu.download<shared::DrawCommand>(culling.commands(), counts.masked,
+                                               culling.capacity() * sizeof(shared::DrawCommand));
     casters = gpu.download<shared::CasterRecord>(scene.caster_buffer(), slots);
-    batches = gpu.download<shared::BatchRecord>(scene.batch_buffer(), scene.batch_buffer().size() / sizeof(shared::BatchRecord));
+    batches = gpu.download<shared::BatchRecord>(scene.batch_buffer(),
+                                                scene.batch_buffer().size() / sizeof(shared::BatchRecord));
     const auto order = gpu.download<uint32_t>(scene.caster_tree().order(), slots);
     const auto leaves = gpu.download<shared::Box>(scene.caster_tree().leaves(), slots);
     boxes.resize(slots);
@@ -47,12 +50,17 @@ struct DeviceDraws {
 using Drawn = std::set<std::pair<uint32_t, uint32_t>>;
 
 reference::Light plain(const LightDesc& light, float more) {
-  return {.kind = static_cast<app::LightKind>(light.type), .position = to_glm(light.position), .direction = glm::normalize(to_glm(light.direction)),
-          .range = light.range_m * (1 + more), .near = light.near_m > 0 ? light.near_m : light.range_m / 256, .outer_cone = light.outer_cone_rad + 10 * more};
+  return {.kind = static_cast<app::LightKind>(light.type),
+          .position = to_glm(light.position),
+          .direction = glm::normalize(to_glm(light.direction)),
+          .range = light.range_m * (1 + more),
+          .near = light.near_m > 0 ? light.near_m : light.range_m / 256,
+          .outer_cone = light.outer_cone_rad + 10 * more};
 }
 
 /// Views of a light that a box must be drawn to (more = 0), or may be (more > 0: everything a little larger).
-uint32_t reference_views(const LightDesc& desc, const shared::LightRecord& record, const shared::Box& device_box, CasterCulling mode, float more) {
+uint32_t reference_views(const LightDesc& desc, const shared::LightRecord& record, const shared::Box& device_box,
+                         CasterCulling mode, float more) {
   if (desc.type == LightType::directional) return 1;
   reference::Box box;
   const float grow = more * desc.range_m;
@@ -92,9 +100,11 @@ void expect_each_drawn_once(const DeviceDraws& draws) {
 
 void expect_needed_and_no_more(SystemRig& rig, const TestScene& scene, const DeviceDraws& draws, CasterCulling mode) {
   Drawn drawn;
-  for (const shared::CasterInstance& instance : draws.instances) ASSERT_TRUE(drawn.insert({instance.caster, instance.view}).second) << "drawn twice";
+  for (const shared::CasterInstance& instance : draws.instances)
+    ASSERT_TRUE(drawn.insert({instance.caster, instance.view}).second) << "drawn twice";
   std::map<uint32_t, const TestInstance*> instance_of_slot;
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) instance_of_slot[slot_of(rig.instance_ids[i])] = &scene.instances[i];
+  for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    instance_of_slot[slot_of(rig.instance_ids[i])] = &scene.instances[i];
   uint64_t needed = 0;
   for (uint32_t l = 0; l < scene.lights.size(); ++l) {
     const shared::LightRecord& record = draws.lights[slot_of(rig.light_ids[l])];
@@ -105,8 +115,10 @@ void expect_needed_and_no_more(SystemRig& rig, const TestScene& scene, const Dev
       const uint32_t may = lit ? reference_views(scene.lights[l], record, draws.boxes[c], mode, 1e-3f) : 0;
       for (uint32_t v = 0; v < record.view_count; ++v) {
         const bool is_drawn = drawn.count({c, record.first_view + v}) != 0;
-        ASSERT_TRUE(is_drawn || !(must >> v & 1)) << "light " << l << ", caster " << c << ", view " << v << " is missing";
-        ASSERT_TRUE(!is_drawn || (may >> v & 1)) << "light " << l << ", caster " << c << ", view " << v << " is not needed";
+        ASSERT_TRUE(is_drawn || !(must >> v & 1))
+            << "light " << l << ", caster " << c << ", view " << v << " is missing";
+        ASSERT_TRUE(!is_drawn || (may >> v & 1))
+            << "light " << l << ", caster " << c << ", view " << v << " is not needed";
         needed += must >> v & 1;
       }
     }
@@ -152,7 +164,8 @@ TEST_F(Casters, OfUnusedLightsAreNotDrawn) {
     std::vector<uint32_t> texels(lights.size());
     for (uint32_t slot = 0; slot < lights.size(); ++slot) {
       for (uint32_t v = 0; v < lights[slot].view_count; ++v) {
-        const glm::uvec2 tile = shared::atlas_tile(lights[slot].first_view + v, rig.stages().store.layout().columns, 64);
+        const glm::uvec2 tile =
+            shared::atlas_tile(lights[slot].first_view + v, rig.stages().store.layout().columns, 64);
         for (uint32_t i = 0; i < 64 * 64; ++i) texels[slot] += atlas.at(tile.x + i % 64, tile.y + i / 64) != 0;
       }
       EXPECT_EQ(texels[slot] > 0, slot == slot_of(rig.light_ids[2])) << "slot " << slot;
@@ -167,7 +180,8 @@ TEST_F(Casters, InManyRoundsMakeTheSameDepth) {
     SystemRig rig(gpu(), {.budget_mib = 16, .max_caster_pairs = at_once});
     rig.add(scene);
     rig.show_nothing();
-    for (int frame = 0; frame < 2; ++frame) {   // the second knows how many pairs there are and has room for them in one round
+    for (int frame = 0; frame < 2;
+         ++frame) {  // the second knows how many pairs there are and has room for them in one round
       rig.frame({.max_resolution = 64});
       if (at_once == 1024 && frame == 0) {
         EXPECT_GT(rig.counters().caster_pairs, 2 * rig.stages().culling.capacity());
@@ -189,7 +203,7 @@ TEST_F(Casters, BeyondTheRoundsAreReportedInTheirFrame) {
   TestScene scene = mixed_scene(240, 40, 33);
   for (uint32_t i = 0; i < scene.lights.size(); ++i)
     scene.lights[i] = {.position = scene.lights[i].position, .range_m = 7, .host_index = i};
-  scene.lights[7].position = {0, 500, 0};    // reaches nothing, ever
+  scene.lights[7].position = {0, 500, 0};  // reaches nothing, ever
   scene.lights[39].position = {0, -500, 0};
   std::vector<Affine> near;
   for (TestInstance& instance : scene.instances) {

@@ -63,7 +63,8 @@ void expect_bounds(const DeviceClusters& clusters, const Receivers& seen, const 
       const uint32_t cluster = clusters.cluster_of(tile, slice);
       if (cluster == shared::NoIndex) continue;
       const glm::vec4 cone = clusters.cones[cluster];
-      bounded = bounded || (holds(clusters.boxes[cluster], seen.positions[i]) && glm::dot(glm::vec3(cone), glm::vec3(seen.normals[i])) >= cone.w);
+      bounded = bounded || (holds(clusters.boxes[cluster], seen.positions[i]) &&
+                            glm::dot(glm::vec3(cone), glm::vec3(seen.normals[i])) >= cone.w);
     }
     ASSERT_TRUE(bounded) << name << ": pixel " << i % seen.width << ", " << i / seen.width;
   }
@@ -86,17 +87,24 @@ TEST_F(Clusters, HoldTheSamplesOfEveryCamera) {
 
     double loose_volume = 0, tight_volume = 0;
     for (uint32_t c = 0; c < loose.cells.size(); ++c) {
-      const shared::Box cell = shared::cell_box(loose.record.camera, {loose.cells[c] / shared::MaxSlices % loose.record.camera.tiles.x,
-                                                loose.cells[c] / shared::MaxSlices / loose.record.camera.tiles.x}, loose.cells[c] % shared::MaxSlices);
+      const shared::Box cell = shared::cell_box(loose.record.camera,
+                                                {loose.cells[c] / shared::MaxSlices % loose.record.camera.tiles.x,
+                                                 loose.cells[c] / shared::MaxSlices / loose.record.camera.tiles.x},
+                                                loose.cells[c] % shared::MaxSlices);
       const glm::vec3 size = loose.boxes[c].hi - loose.boxes[c].lo;
-      const float rounding = 2e-5f * (glm::length(loose.boxes[c].lo) + glm::length(loose.boxes[c].hi) + glm::length(loose.record.camera.origin));
-      ASSERT_TRUE(holds(cell, loose.boxes[c].lo, rounding) && holds(loose.boxes[c], cell.lo, rounding)) << shot.name << ": cluster " << c;
-      ASSERT_TRUE(holds(cell, loose.boxes[c].hi, rounding) && holds(loose.boxes[c], cell.hi, rounding)) << shot.name << ": cluster " << c;
+      const float rounding = 2e-5f * (glm::length(loose.boxes[c].lo) + glm::length(loose.boxes[c].hi) +
+                                      glm::length(loose.record.camera.origin));
+      ASSERT_TRUE(holds(cell, loose.boxes[c].lo, rounding) && holds(loose.boxes[c], cell.lo, rounding))
+          << shot.name << ": cluster " << c;
+      ASSERT_TRUE(holds(cell, loose.boxes[c].hi, rounding) && holds(loose.boxes[c], cell.hi, rounding))
+          << shot.name << ": cluster " << c;
       // explicit ⊆ implicit, but for the slack that explicit boxes are grown by.
       const float slack = 0.0011f * std::max({size.x, size.y, size.z}) + rounding;
-      ASSERT_TRUE(holds(loose.boxes[c], tight.boxes[c].lo, slack) && holds(loose.boxes[c], tight.boxes[c].hi, slack)) << shot.name << ": cluster " << c;
+      ASSERT_TRUE(holds(loose.boxes[c], tight.boxes[c].lo, slack) && holds(loose.boxes[c], tight.boxes[c].hi, slack))
+          << shot.name << ": cluster " << c;
       const glm::vec3 tight_size = tight.boxes[c].hi - tight.boxes[c].lo;
-      loose_volume += double(size.x) * size.y * size.z, tight_volume += double(tight_size.x) * tight_size.y * tight_size.z;
+      loose_volume += double(size.x) * size.y * size.z,
+          tight_volume += double(tight_size.x) * tight_size.y * tight_size.z;
       ASSERT_TRUE(tight.cones[c] == loose.cones[c]) << shot.name;
     }
     EXPECT_LT(tight_volume, 0.9 * loose_volume) << shot.name;
@@ -107,7 +115,7 @@ TEST_F(Clusters, ConesHoldEveryDirectionWithoutNormals) {
   SystemRig rig(gpu(), {.budget_mib = 4});
   CameraDesc camera = perspective_camera({0, 5, 16}, {0, 1, 0}, 96, 64);
   Receivers seen = picture(camera, balls_on_ground);
-  seen.normals.assign(seen.normals.size(), glm::vec4(0));   // no directions
+  seen.normals.assign(seen.normals.size(), glm::vec4(0));  // no directions
   rig.show(camera, seen);
   rig.frame();
   for (const glm::vec4& cone : DeviceClusters(rig).cones) EXPECT_EQ(cone.w, -1.0f);

@@ -39,7 +39,10 @@ class Flight {
   }
 
  private:
-  struct Entry { uint64_t serial; VkFence fence; };
+  struct Entry {
+    uint64_t serial;
+    VkFence fence;
+  };
   Gpu& gpu_;
   std::deque<Entry> flying_;
   uint64_t landed_ = 0;
@@ -49,7 +52,7 @@ class Flight {
 struct Changing {
   SystemRig& rig;
   TestScene scene;
-  std::vector<MeshId> meshes;          // by scene.meshes, 0: removed
+  std::vector<MeshId> meshes;  // by scene.meshes, 0: removed
   std::vector<InstanceId> instances;
   std::vector<LightId> lights;
   std::mt19937 engine{77};
@@ -60,7 +63,9 @@ struct Changing {
       const glm::vec3 at(float(below(24)) - 12, float(below(30)) / 10, float(below(24)) - 12);
       TestInstance instance{.mesh = below(scene.meshes.size()), .world_from_mesh = random_affine(below(1000), at)};
       if (!meshes[instance.mesh].value) continue;
-      instances.push_back(take(rig.system().add_instance({.mesh = meshes[instance.mesh], .world_from_mesh = instance.world_from_mesh, .mobility = instance.mobility})));
+      instances.push_back(take(rig.system().add_instance({.mesh = meshes[instance.mesh],
+                                                          .world_from_mesh = instance.world_from_mesh,
+                                                          .mobility = instance.mobility})));
       scene.instances.push_back(instance);
     }
   }
@@ -74,7 +79,8 @@ struct Changing {
   void move() {
     for (uint32_t i = 0; i < instances.size(); i += 3) {
       if (!instances[i].value) continue;
-      scene.instances[i].world_from_mesh = random_affine(below(1000), {float(below(20)) - 10, 1, float(below(20)) - 10});
+      scene.instances[i].world_from_mesh =
+          random_affine(below(1000), {float(below(20)) - 10, 1, float(below(20)) - 10});
       take(rig.system().set_transforms({&instances[i], 1}, {&scene.instances[i].world_from_mesh, 1}));
     }
     for (uint32_t i = 0; i < lights.size(); i += 5) {
@@ -95,15 +101,16 @@ struct Changing {
   }
   /// A mesh and all of its instances.
   void remove_mesh(uint32_t mesh) {
-    EXPECT_EQ(rig.system().remove(meshes[mesh]).ok(), std::none_of(instances.begin(), instances.end(), [&](const InstanceId& id) {
-      return id.value && scene.instances[size_t(&id - instances.data())].mesh == mesh;
-    }));
+    EXPECT_EQ(rig.system().remove(meshes[mesh]).ok(),
+              std::none_of(instances.begin(), instances.end(), [&](const InstanceId& id) {
+                return id.value && scene.instances[size_t(&id - instances.data())].mesh == mesh;
+              }));
     for (uint32_t i = 0; i < instances.size(); ++i) {
       if (!instances[i].value || scene.instances[i].mesh != mesh) continue;
       take(rig.system().remove(instances[i]));
       instances[i] = {};
     }
-    (void)rig.system().remove(meshes[mesh]);   // unless the first attempt did it
+    (void)rig.system().remove(meshes[mesh]);  // unless the first attempt did it
     meshes[mesh] = {};
   }
   void add_mesh(const TestMesh& mesh) {
@@ -127,20 +134,23 @@ void edit(Changing& changing, uint32_t frame) {
     changing.add_mesh(frame == 7 ? masked_mesh() : sphere_mesh(20, 20));
     changing.add_instances(40);
   }
-  if (frame == 15) changing.remove_some(changing.lights, 1);   // all of them
+  if (frame == 15) changing.remove_some(changing.lights, 1);  // all of them
   if (frame == 17) changing.add_lights(12);
 }
 
 TEST_F(Edits, OverFramesInFlightLeaveNothingBehind) {
   constexpr uint32_t kFrames = 24, kInFlight = 3;
-  SystemRig rig(gpu(), {.frames_in_flight = kInFlight, .budget_mib = 16, .max_cluster_light_pairs = 1024, .max_caster_pairs = 1024});
+  SystemRig rig(
+      gpu(),
+      {.frames_in_flight = kInFlight, .budget_mib = 16, .max_cluster_light_pairs = 1024, .max_caster_pairs = 1024});
   rig.show_nothing();
   Changing changing{.rig = rig};
   {
     Flight flight(gpu());
     for (uint32_t frame = 1; frame <= kFrames; ++frame) {
       edit(changing, frame);
-      FrameDesc desc = rig.describe({.writer = frame % 6 == 5 ? Writer::traditional : Writer::multi_draw, .max_resolution = frame % 7 < 3 ? 32u : 64u});
+      FrameDesc desc = rig.describe({.writer = frame % 6 == 5 ? Writer::traditional : Writer::multi_draw,
+                                     .max_resolution = frame % 7 < 3 ? 32u : 64u});
       desc.completed_serial = flight.land(kInFlight - 1);
       take(rig.system().begin_frame(desc));
       VkCommandBuffer commands = gpu().begin();
@@ -157,7 +167,7 @@ TEST_F(Edits, OverFramesInFlightLeaveNothingBehind) {
   for (const TestMesh& mesh : changing.scene.meshes) fresh.add(mesh);
   for (size_t i = 0; i < changing.instances.size(); ++i)
     if (changing.instances[i].value) fresh.add(changing.scene.instances[i]);
-  std::map<uint32_t, LightDesc> left;   // in the order of slots, which is that of tiles
+  std::map<uint32_t, LightDesc> left;  // in the order of slots, which is that of tiles
   for (size_t i = 0; i < changing.lights.size(); ++i)
     if (changing.lights[i].value) left[slot_of(changing.lights[i])] = changing.scene.lights[i];
   for (const auto& [slot, light] : left) take(fresh.system().add_light(light));
@@ -189,9 +199,7 @@ TEST_F(Edits, GiveMemoryBack) {
     rig.frame({.max_resolution = 32});
     const VkDeviceSize bytes = rig.state().memory->bytes_in_use(gpu::MemoryKind::device);
     if (cycle == 4) after_five = bytes;
-    if (cycle > 4) {
-      EXPECT_EQ(bytes, after_five) << "cycle " << cycle;
-    }
+    if (cycle > 4) { EXPECT_EQ(bytes, after_five) << "cycle " << cycle; }
   }
 }
 
@@ -213,7 +221,7 @@ TEST_F(Edits, OfMasksWaitForFramesInFlight) {
 ErrorCode code(const Result<void>& result) { return result.ok() ? ErrorCode{} : result.error().code; }
 
 TEST_F(Edits, ThatAreWrongAreRefusedAndChangeNothing) {
-  const TestScene scene = mixed_scene(12, 6, 5);   // instance 3 is fixed
+  const TestScene scene = mixed_scene(12, 6, 5);  // instance 3 is fixed
   SystemRig rig(gpu(), {.budget_mib = 4});
   rig.add(scene);
   rig.show_nothing();
@@ -233,17 +241,20 @@ TEST_F(Edits, ThatAreWrongAreRefusedAndChangeNothing) {
   EXPECT_EQ(code(system.mark_deformed({pair, 1})), ErrorCode::invalid_argument) << "has no stream";
   EXPECT_EQ(code(system.remove(rig.mesh_ids[0])), ErrorCode::invalid_argument) << "has instances";
   EXPECT_EQ(code(system.remove(MeshId{})), ErrorCode::stale_id);
-  EXPECT_EQ(code(system.remove(LightId{rig.light_ids[0].value + (1u << 20)})), ErrorCode::stale_id) << "of another generation";
+  EXPECT_EQ(code(system.remove(LightId{rig.light_ids[0].value + (1u << 20)})), ErrorCode::stale_id)
+      << "of another generation";
   const LightId two[] = {rig.light_ids[0], rig.light_ids[1]};
   const LightDesc descs[] = {{.position = {9, 9, 9}}, {.range_m = -1}};
   EXPECT_EQ(code(system.set_lights(two, descs)), ErrorCode::invalid_argument) << "the second has no range";
   EXPECT_EQ(system.add_instance({.mesh = MeshId{99}}).error().code, ErrorCode::stale_id);
-  EXPECT_EQ(system.add_light({.type = LightType::spot, .direction = {0, 0, 0}}).error().code, ErrorCode::invalid_argument);
+  EXPECT_EQ(system.add_light({.type = LightType::spot, .direction = {0, 0, 0}}).error().code,
+            ErrorCode::invalid_argument);
   EXPECT_EQ(system.add_light({.type = LightType::spot, .outer_cone_rad = 2}).error().code, ErrorCode::invalid_argument);
   EXPECT_EQ(system.add_light({.range_m = INFINITY}).error().code, ErrorCode::invalid_argument);
   const uint32_t outside[] = {0, 1, 8};
   const TestMesh box = box_mesh();
-  EXPECT_EQ(system.add_mesh({.positions = box.positions, .indices = outside}).error().code, ErrorCode::invalid_argument);
+  EXPECT_EQ(system.add_mesh({.positions = box.positions, .indices = outside}).error().code,
+            ErrorCode::invalid_argument);
   rig.frame({.max_resolution = 32});
   const Atlas after = rig.atlas();
   EXPECT_EQ(std::memcmp(before.depth.data(), after.depth.data(), before.depth.size() * sizeof(float)), 0);
@@ -271,7 +282,7 @@ TEST_F(Edits, StayPendingWhenAFrameIsRefused) {
   rig.show_nothing();
   for (int frame = 0; frame < 3; ++frame) rig.frame({.max_resolution = 32});
   rig.add(mixed_scene(12, 6, 5));
-  const FrameDesc good = rig.describe({.max_resolution = 32});   // serial 4
+  const FrameDesc good = rig.describe({.max_resolution = 32});  // serial 4
   ASSERT_EQ(good.serial, 4u);
   const auto refused = [&](const char* why, const auto& spoil) {
     FrameDesc desc = good;

@@ -17,10 +17,14 @@ constexpr uint32_t kListLights[] =
     ;
 
 reference::Light plain(const LightDesc& light) {
-  static_assert(uint32_t(app::LightKind::point) == uint32_t(LightType::point) && uint32_t(app::LightKind::spot) == uint32_t(LightType::spot) &&
+  static_assert(uint32_t(app::LightKind::point) == uint32_t(LightType::point) &&
+                uint32_t(app::LightKind::spot) == uint32_t(LightType::spot) &&
                 uint32_t(app::LightKind::directional) == uint32_t(LightType::directional));
-  return {.kind = static_cast<app::LightKind>(light.type), .position = to_glm(light.position),
-          .direction = glm::normalize(to_glm(light.direction)), .range = light.range_m, .outer_cone = light.outer_cone_rad};
+  return {.kind = static_cast<app::LightKind>(light.type),
+          .position = to_glm(light.position),
+          .direction = glm::normalize(to_glm(light.direction)),
+          .range = light.range_m,
+          .outer_cone = light.outer_cone_rad};
 }
 
 reference::Box plain(const shared::Box& box) {
@@ -34,7 +38,8 @@ bool reaches(const LightDesc& light, const glm::vec3& position) {
   const glm::vec3 offset = position - to_glm(light.position);
   const float distance = glm::length(offset);
   if (distance > light.range_m) return false;
-  return light.type == LightType::point || glm::dot(offset, glm::normalize(to_glm(light.direction))) >= std::cos(light.outer_cone_rad) * distance;
+  return light.type == LightType::point ||
+         glm::dot(offset, glm::normalize(to_glm(light.direction))) >= std::cos(light.outer_cone_rad) * distance;
 }
 
 struct LitPicture {
@@ -51,11 +56,13 @@ void expect_nothing_lost(SystemRig& rig, const DeviceClusters& clusters, const L
   std::vector<uint32_t> index_of(rig.stages().scene.light_slots());
   for (uint32_t i = 0; i < rig.light_ids.size(); ++i) index_of[slot_of(rig.light_ids[i])] = i;
   for (uint32_t c = 0; c < listed.size(); ++c)
-    for (const uint32_t slot : clusters.lights_of(c < clusters.cells.size() ? c : shared::NoIndex)) listed[c][index_of[slot]] = true;
+    for (const uint32_t slot : clusters.lights_of(c < clusters.cells.size() ? c : shared::NoIndex))
+      listed[c][index_of[slot]] = true;
   uint64_t pairs = 0;
   for (uint32_t i = 0; i < lit.seen.depth.size(); ++i) {
     if (shared::is_background(lit.seen.depth[i])) continue;
-    const uint32_t tile = i / lit.seen.width / shared::TileSide * camera.tiles.x + i % lit.seen.width / shared::TileSide;
+    const uint32_t tile =
+        i / lit.seen.width / shared::TileSide * camera.tiles.x + i % lit.seen.width / shared::TileSide;
     const glm::uvec2 slices = slices_of(camera, lit.seen.t[i]);
     const bool border = slices.x != slices.y;
     for (uint32_t light = 0; light < lit.scene.lights.size(); ++light) {
@@ -75,7 +82,8 @@ void expect_used(SystemRig& rig, const DeviceClusters& clusters) {
   for (uint32_t c = 0; c < clusters.cells.size(); ++c)
     for (const uint32_t slot : clusters.lights_of(c)) listed[slot] = true;
   const std::vector<uint32_t> used = rig.used_lights();
-  for (uint32_t slot = 0; slot < used.size(); ++slot) EXPECT_EQ(used[slot], listed[slot] ? shared::LightIsUsed : 0u) << "slot " << slot;
+  for (uint32_t slot = 0; slot < used.size(); ++slot)
+    EXPECT_EQ(used[slot], listed[slot] ? shared::LightIsUsed : 0u) << "slot " << slot;
   EXPECT_EQ(clusters.counters.lights_visible, std::count(listed.begin(), listed.end(), true));
   const auto lights = rig.lights();
   uint32_t views = 0;
@@ -118,7 +126,8 @@ TEST_F(LightLists, HoldWhatReachesAndLittleElse) {
           ASSERT_TRUE(found) << "cluster " << c << " lacks light " << i;
         }
         if (found) {
-          ASSERT_TRUE(reference::range_meets(wider, larger) && reference::cone_may_meet(wider, larger)) << "cluster " << c << " has light " << i;
+          ASSERT_TRUE(reference::range_meets(wider, larger) && reference::cone_may_meet(wider, larger))
+              << "cluster " << c << " has light " << i;
         }
       }
     }
@@ -142,11 +151,11 @@ TEST_F(LightLists, TooLongForTheirRoomFallBackToAllLights) {
   EXPECT_EQ(crowded.counters.all_lights_used, 1u);
   EXPECT_EQ(rig.system().statistics().overflows, 1u);
   EXPECT_EQ(rig.system().statistics().lights_visible, 200u);
-  EXPECT_GT(std::count_if(crowded.lists.begin(), crowded.lists.end(), [](const auto& list) { return list.first != shared::NoIndex; }), 0);
+  EXPECT_GT(std::count_if(crowded.lists.begin(), crowded.lists.end(),
+                          [](const auto& list) { return list.first != shared::NoIndex; }),
+            0);
   for (uint32_t c = 0; c < crowded.cells.size(); ++c) {
-    if (crowded.lists[c].first == shared::NoIndex) {
-      EXPECT_EQ(crowded.lists[c].count, 200u);
-    }
+    if (crowded.lists[c].first == shared::NoIndex) { EXPECT_EQ(crowded.lists[c].count, 200u); }
   }
   expect_nothing_lost(rig, crowded, lit);
   for (const shared::ShadowView& view : rig.views()) EXPECT_NE(view.light, shared::NoIndex);
@@ -161,21 +170,32 @@ TEST_F(LightLists, TooLongForTheirRoomFallBackToAllLights) {
 }
 
 TEST_F(LightLists, ReadTheSameThroughTheInclude) {
-  struct Sample { glm::vec3 position; float depth; };
-  struct Answer { uint32_t cluster, cluster_at, cell, inside_box; std::array<uint32_t, 8> lights, lights_at; };
-  struct Push { VkDeviceAddress shadows, samples, answers; uint32_t width, height; };
+  struct Sample {
+    glm::vec3 position;
+    float depth;
+  };
+  struct Answer {
+    uint32_t cluster, cluster_at, cell, inside_box;
+    std::array<uint32_t, 8> lights, lights_at;
+  };
+  struct Push {
+    VkDeviceAddress shadows, samples, answers;
+    uint32_t width, height;
+  };
   const LitPicture lit(170, 4);
   SystemRig rig(gpu(), {.budget_mib = 16});
   rig.add(lit.scene);
   rig.show(lit.camera, lit.seen);
   std::vector<Sample> samples;
   for (size_t i = 0; i < lit.seen.depth.size(); ++i) samples.push_back({lit.seen.positions[i], lit.seen.depth[i]});
-  const gpu::Buffer input = gpu().upload(samples), output = gpu().buffer(samples.size() * sizeof(Answer), gpu::MemoryKind::device, "answers");
+  const gpu::Buffer input = gpu().upload(samples),
+                    output = gpu().buffer(samples.size() * sizeof(Answer), gpu::MemoryKind::device, "answers");
   const VkDescriptorSetLayout layout = rig.system().descriptor_set_layout();
   const Program program(gpu(), kListLights, {&layout, 1});
   rig.frame({}, [&](VkCommandBuffer commands) {
     const ShaderInterface shadows = rig.system().shader_interface(rig.camera().id);
-    program.dispatch(commands, shadows.set, Push{shadows.frame, input.address(), output.address(), lit.seen.width, lit.seen.height},
+    program.dispatch(commands, shadows.set,
+                     Push{shadows.frame, input.address(), output.address(), lit.seen.width, lit.seen.height},
                      (lit.seen.width + 7) / 8, (lit.seen.height + 7) / 8);
   });
   const auto answers = gpu().download<Answer>(output, samples.size());
@@ -183,7 +203,9 @@ TEST_F(LightLists, ReadTheSameThroughTheInclude) {
   const auto bits = [&](uint32_t cluster) {
     std::array<uint32_t, 8> out{};
     for (const uint32_t slot : clusters.lights_of(cluster)) {
-      const auto light = static_cast<uint32_t>(std::find_if(rig.light_ids.begin(), rig.light_ids.end(), [&](LightId id) { return slot_of(id) == slot; }) - rig.light_ids.begin());
+      const auto light = static_cast<uint32_t>(
+          std::find_if(rig.light_ids.begin(), rig.light_ids.end(), [&](LightId id) { return slot_of(id) == slot; }) -
+          rig.light_ids.begin());
       out[light / 32] |= 1u << light % 32;
     }
     return out;
@@ -203,7 +225,8 @@ TEST_F(LightLists, ReadTheSameThroughTheInclude) {
     ASSERT_EQ(answer.lights, expected[answer.cluster]);
     ASSERT_EQ(answer.inside_box, 1u) << "pixel " << i;
     // By position, rounding may cross into a neighbour, which has all lights where nothing was seen in it.
-    ASSERT_EQ(answer.lights_at, answer.cluster_at == shared::NoIndex ? bits(shared::NoIndex) : expected[answer.cluster_at]);
+    ASSERT_EQ(answer.lights_at,
+              answer.cluster_at == shared::NoIndex ? bits(shared::NoIndex) : expected[answer.cluster_at]);
     elsewhere += answer.cluster_at != answer.cluster;
   }
   EXPECT_LE(elsewhere, answers.size() / 1000);

@@ -93,8 +93,11 @@ struct MarkFaults {
 
 void check_tap(const DeviceMaps& maps, const shared::MapRecord& map, const Tap& tap, MarkFaults& faults) {
   ++faults.taps;
-  const uint32_t page = tap.y / 64 * map.pages + tap.x / 64, receiver = map.first_receiver + tap.view, grid = maps.record.receiver_grid;
-  const auto part = [&](uint32_t i, uint32_t parts) { return static_cast<uint32_t>((uint64_t(2 * i + 1) * parts) / (2 * map.resolution)); };
+  const uint32_t page = tap.y / 64 * map.pages + tap.x / 64, receiver = map.first_receiver + tap.view,
+                 grid = maps.record.receiver_grid;
+  const auto part = [&](uint32_t i, uint32_t parts) {
+    return static_cast<uint32_t>((uint64_t(2 * i + 1) * parts) / (2 * map.resolution));
+  };
   const bool has_page = (maps.page_bits[map.first_word + tap.view * map.words + page / 32] >> page % 32 & 1) != 0;
   const bool has_tile = (maps.projection[receiver * 32 + part(tap.y, 32)] >> part(tap.x, 32) & 1) != 0;
   const double known = maps.receiver_depth[receiver * grid * grid + part(tap.y, grid) * grid + part(tap.x, grid)];
@@ -103,8 +106,8 @@ void check_tap(const DeviceMaps& maps, const shared::MapRecord& map, const Tap& 
   if (has_page && has_tile && has_depth) return;
   if (faults.first.empty())
     faults.first = "kind " + std::to_string(map.kind) + ", " + std::to_string(map.resolution) + " texels, view " +
-                   std::to_string(tap.view) + ", texel " + std::to_string(tap.x) + ", " + std::to_string(tap.y) + ", depth " +
-                   std::to_string(tap.deepest) + " over " + std::to_string(known);
+                   std::to_string(tap.view) + ", texel " + std::to_string(tap.x) + ", " + std::to_string(tap.y) +
+                   ", depth " + std::to_string(tap.deepest) + " over " + std::to_string(known);
 }
 
 /// All taps of every (pixel, light) that the host asked for.
@@ -118,9 +121,11 @@ MarkFaults check_taps(const DeviceMaps& maps, const SeenScene& scene, const Pair
       const uint32_t pair = maps.lists[cluster].first + i;
       const shared::LightRecord& light = maps.light_records[maps.lights[pair]];
       if (light.view_count == 0 || pairs.visibility[size_t(pixel) * pairs.lights + light.host_index] < 0) continue;
-      const glm::dvec3 p = scene.seen.positions[pixel], normal = glm::normalize(glm::dvec3(glm::vec3(scene.seen.normals[pixel])));
-      const glm::dvec3 to_light =
-          light.type == shared::LightDirectional ? -glm::dvec3(light.direction_ws) : glm::normalize(glm::dvec3(light.position_ws) - p);
+      const glm::dvec3 p = scene.seen.positions[pixel],
+                       normal = glm::normalize(glm::dvec3(glm::vec3(scene.seen.normals[pixel])));
+      const glm::dvec3 to_light = light.type == shared::LightDirectional
+                                      ? -glm::dvec3(light.direction_ws)
+                                      : glm::normalize(glm::dvec3(light.position_ws) - p);
       const uint32_t m = maps.pair_maps[pair];
       if (m == shared::NoIndex) {  // all normals face away, but for a milliradian
         faults.maps += glm::dot(normal, to_light) > 2e-3;
@@ -185,8 +190,9 @@ void expect_shadows(const Pairs& pairs) {
   EXPECT_GT(lit, static_cast<ptrdiff_t>(pairs.asked() / 20));
 }
 
-constexpr CasterCulling kCulling[] = {CasterCulling::light_volume, CasterCulling::view_mask, CasterCulling::projection_map,
-                                      CasterCulling::projection_map_depth, CasterCulling::receiver_grid};
+constexpr CasterCulling kCulling[] = {CasterCulling::light_volume, CasterCulling::view_mask,
+                                      CasterCulling::projection_map, CasterCulling::projection_map_depth,
+                                      CasterCulling::receiver_grid};
 
 /// The same bits whatever culling drops, and the more it may drop the less it draws.
 void expect_same_culled(PairRig& rig, const SeenScene& scene, const FrameSettings& settings) {
@@ -197,7 +203,8 @@ void expect_same_culled(PairRig& rig, const SeenScene& scene, const FrameSetting
   uint64_t triangles = all.statistics.triangles_drawn;
   for (const CasterCulling culling : kCulling) {
     for (const uint32_t grid : {1u, 8u, 32u}) {
-      if (culling < CasterCulling::receiver_grid && grid > 1) continue;  // one depth a view, however many cells it is made of
+      if (culling < CasterCulling::receiver_grid && grid > 1)
+        continue;  // one depth a view, however many cells it is made of
       now.caster_culling = culling;
       now.receiver_grid = grid;
       const Pairs culled = rig.settle(now);
@@ -213,7 +220,8 @@ TEST_F(Answers, AreTheSameWhateverIsCulled) {
   PairRig rig(gpu(), {}, scene);
   expect_shadows(rig.settle());
   expect_same_culled(rig, scene, {});
-  expect_same_culled(rig, scene, {.layout = MapLayout::exact, .resolution = ResolutionForm::paper, .maps_per_light = 4});
+  expect_same_culled(rig, scene,
+                     {.layout = MapLayout::exact, .resolution = ResolutionForm::paper, .maps_per_light = 4});
 }
 
 TEST_F(Answers, AreTheSameWhateverIsCulledInHardScenes) {
@@ -251,7 +259,8 @@ SeenScene shuffled(const SeenScene& scene, uint32_t seed) {
 TEST_F(Answers, AreTheSameInAnyOrderOfLightsAndCasters) {
   const SeenScene scene = balls_scene(60, 40, 33);
   const Pairs first = PairRig(gpu(), {}, scene).settle();
-  for (const uint32_t seed : {1u, 2u}) EXPECT_EQ(differences(first, PairRig(gpu(), {}, shuffled(scene, seed)).settle()), 0u);
+  for (const uint32_t seed : {1u, 2u})
+    EXPECT_EQ(differences(first, PairRig(gpu(), {}, shuffled(scene, seed)).settle()), 0u);
 }
 
 }  // namespace

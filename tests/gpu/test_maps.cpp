@@ -87,7 +87,9 @@ struct Check {
   reference::MapRules rules = plain_rules(settings);
 
   const shared::LightRecord& light_of_pair(uint32_t pair) const { return maps.light_records[maps.lights[pair]]; }
-  reference::MapLight plain_light_of(const shared::LightRecord& light) const { return plain_light(light, maps.views[light.first_view]); }
+  reference::MapLight plain_light_of(const shared::LightRecord& light) const {
+    return plain_light(light, maps.views[light.first_view]);
+  }
   /// Are the light's maps windows of levels?
   bool has_levels(const shared::LightRecord& light) const { return !rules.exact && light.views == shared::ViewsOrtho; }
 };
@@ -212,8 +214,9 @@ void expect_maps(const Check& check) {
   expect_order(check);
   size_t close_calls = 0;
   for (uint32_t slot = 0; slot < maps.light_maps.size(); ++slot)
-    close_calls += !(check.has_levels(maps.light_records[slot]) ? check.suns.expect_maps(slot, pairs[slot], check.settings)
-                                                                 : expect_maps_of_light(check, slot, pairs[slot]));
+    close_calls +=
+        !(check.has_levels(maps.light_records[slot]) ? check.suns.expect_maps(slot, pairs[slot], check.settings)
+                                                     : expect_maps_of_light(check, slot, pairs[slot]));
   EXPECT_LE(close_calls, maps.light_maps.size() / 10 + 1);
 }
 

@@ -27,7 +27,8 @@ struct Point {
 double whole_texel_m(const LightDesc& light, const glm::dvec3& p, double sun_side_m) {
   if (light.type == LightType::directional) return sun_side_m / kWholeTexels;
   const bool one_view = light.type == LightType::spot && light.outer_cone_rad < shared::OneViewMaxOuterRad;
-  return 2 * (one_view ? 1.2 * std::tan(light.outer_cone_rad) : 1) * glm::distance(p, glm::dvec3(to_glm(light.position))) / kWholeTexels;
+  return 2 * (one_view ? 1.2 * std::tan(light.outer_cone_rad) : 1) *
+         glm::distance(p, glm::dvec3(to_glm(light.position))) / kWholeTexels;
 }
 
 /// Opaque casters in the air, a ground, lights of every kind above.
@@ -44,11 +45,20 @@ SeenScene fog_scene() {
   scene.instances.push_back({.mesh = 2, .world_from_mesh = affine(glm::mat3(12), {0, -0.5f, 0})});
   scene.lights = {{.position = {0, 7, 0}, .range_m = 14},
                   {.position = {-10, 3, 10}, .range_m = 25},
-                  {.type = LightType::spot, .position = {6, 8, 6}, .direction = {-0.6f, -1, -0.5f}, .range_m = 20, .outer_cone_rad = 0.7f},
-                  {.type = LightType::spot, .position = {-6, 7, -6}, .direction = {0.1f, -1, 0.2f}, .range_m = 16, .outer_cone_rad = 1.4f},
+                  {.type = LightType::spot,
+                   .position = {6, 8, 6},
+                   .direction = {-0.6f, -1, -0.5f},
+                   .range_m = 20,
+                   .outer_cone_rad = 0.7f},
+                  {.type = LightType::spot,
+                   .position = {-6, 7, -6},
+                   .direction = {0.1f, -1, 0.2f},
+                   .range_m = 16,
+                   .outer_cone_rad = 1.4f},
                   {.type = LightType::directional, .direction = {0.4f, -1, 0.2f}}};
   // Small ones in the air: no surface in sight is near enough for the lists of its cluster to name them.
-  for (uint32_t i = 0; i < 15; ++i) scene.lights.push_back({.position = {place(engine), 4.5f, place(engine)}, .range_m = 1.5f});
+  for (uint32_t i = 0; i < 15; ++i)
+    scene.lights.push_back({.position = {place(engine), 4.5f, place(engine)}, .range_m = 1.5f});
   for (uint32_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].host_index = i;
   out.camera.other_receivers = true;
   return out;
@@ -67,7 +77,9 @@ std::vector<Point> fog_points(const TestScene& scene, uint32_t count) {
     const glm::vec3 direction = glm::normalize(to_glm(light.direction));
     const glm::vec3 to_light = light.type == LightType::directional ? -direction : to_glm(light.position) - p;
     if (light.type != LightType::directional && glm::length(to_light) > light.range_m) continue;
-    if (light.type == LightType::spot && glm::dot(glm::normalize(-to_light), direction) < std::cos(light.outer_cone_rad)) continue;
+    if (light.type == LightType::spot &&
+        glm::dot(glm::normalize(-to_light), direction) < std::cos(light.outer_cone_rad))
+      continue;
     points.push_back({p, glm::normalize(to_light), index});
   }
   return points;
@@ -79,13 +91,15 @@ std::vector<float> visibility_at(SystemRig& rig, const FrameSettings& settings, 
     uint32_t count;
   };
   Gpu& gpu = rig.gpu();
-  const gpu::Buffer input = gpu.upload(points), output = gpu.buffer(points.size() * sizeof(float), gpu::MemoryKind::device, "visibility");
+  const gpu::Buffer input = gpu.upload(points),
+                    output = gpu.buffer(points.size() * sizeof(float), gpu::MemoryKind::device, "visibility");
   const VkDescriptorSetLayout layout = rig.system().descriptor_set_layout();
   const Program program(gpu, kEvaluate, {&layout, 1});
   rig.frame(settings, [&](VkCommandBuffer commands) {
     const ShaderInterface shadows = rig.system().shader_interface(rig.camera().id);
     const auto count = static_cast<uint32_t>(points.size());
-    program.dispatch(commands, shadows.set, Push{shadows.frame, input.address(), output.address(), count}, (count + 63) / 64);
+    program.dispatch(commands, shadows.set, Push{shadows.frame, input.address(), output.address(), count},
+                     (count + 63) / 64);
   });
   return gpu.download<float>(output, points.size());
 }

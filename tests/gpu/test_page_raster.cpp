@@ -32,7 +32,8 @@ class PageRasterTest : public GpuTest {
   }
   std::vector<uint32_t> draw_by_fragments(PageRig& rig) {
     const uint32_t side = rig.max_resolution();
-    return rig.draw([&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) { fragments_->record(recorder, in, side); });
+    return rig.draw(
+        [&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) { fragments_->record(recorder, in, side); });
   }
 
   inline static std::unique_ptr<raster::PageFragments> fragments_;
@@ -116,10 +117,11 @@ TestMesh spiteful_mesh(uint32_t count, uint32_t seed) {
 TestScene spiteful_scene(uint32_t triangles, uint32_t seed) {
   TestScene scene;
   scene.meshes = {spiteful_mesh(triangles, seed), sphere_mesh(12, 16), box_mesh()};
-  scene.instances = {{.mesh = 0, .world_from_mesh = affine(glm::mat3(1), {0, 0, 0})},
-                     {.mesh = 1, .world_from_mesh = random_affine(seed, {2, 0.6f, 1})},
-                     {.mesh = 1, .world_from_mesh = affine(glm::mat3(-0.7f, 0, 0, 0, 0.7f, 0, 0, 0, 0.7f), {-1, 1, -2})},  // mirrored
-                     {.mesh = 2, .world_from_mesh = affine(glm::mat3(9), {0.1f, 0.2f, 0.3f})}};                            // a room
+  scene.instances = {
+      {.mesh = 0, .world_from_mesh = affine(glm::mat3(1), {0, 0, 0})},
+      {.mesh = 1, .world_from_mesh = random_affine(seed, {2, 0.6f, 1})},
+      {.mesh = 1, .world_from_mesh = affine(glm::mat3(-0.7f, 0, 0, 0, 0.7f, 0, 0, 0, 0.7f), {-1, 1, -2})},  // mirrored
+      {.mesh = 2, .world_from_mesh = affine(glm::mat3(9), {0.1f, 0.2f, 0.3f})}};                            // a room
   return scene;
 }
 
@@ -148,7 +150,8 @@ uint32_t views_that_need(const PageRig& rig, const std::vector<uint32_t>& bits) 
 
 TEST_F(PageRasterTest, TheOracleCountsTrianglesThatCoverALookedUpTexel) {
   const raster::NeededTriangles oracle = take(raster::NeededTriangles::create(gpu().factory()));
-  const std::vector<PageMap> maps{cube_map({0.03f, -0.02f, 0.01f}, 0.05f, 32), cube_map({0.03f, -0.02f, 0.01f}, 0.05f, 256, 0.6),
+  const std::vector<PageMap> maps{cube_map({0.03f, -0.02f, 0.01f}, 0.05f, 32),
+                                  cube_map({0.03f, -0.02f, 0.01f}, 0.05f, 256, 0.6),
                                   spot_map({1, 2, 1}, {-0.3f, -1, 0.2f}, 0.7f, 0.1f, 128)};
   uint32_t all = 0, needed_of_all = 0;
   for (uint32_t seed = 0; seed < 40; ++seed) {
@@ -163,7 +166,9 @@ TEST_F(PageRasterTest, TheOracleCountsTrianglesThatCoverALookedUpTexel) {
     for (const bool everything : {true, false}) {
       const std::vector<uint32_t> looked_up = everything ? std::vector<uint32_t>(bits.size(), ~0u) : bits;
       const gpu::Buffer texels = gpu().upload(looked_up), count = gpu().upload(std::vector<uint32_t>{5});
-      rig.run([&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) { oracle.record(recorder, in, texels.address(), count.address()); });
+      rig.run([&](gpu::Recorder& recorder, const raster::PageWriterInputs& in) {
+        oracle.record(recorder, in, texels.address(), count.address());
+      });
       const uint32_t found = gpu().download<uint32_t>(count, 1)[0] - 5;
       EXPECT_EQ(found, views_that_need(rig, looked_up)) << "triangle " << seed;
       (everything ? all : needed_of_all) += found;
@@ -174,7 +179,8 @@ TEST_F(PageRasterTest, TheOracleCountsTrianglesThatCoverALookedUpTexel) {
 }
 
 TEST_F(PageRasterTest, DrawsLargeMapsAsTheReference) {
-  const std::vector<PageMap> maps{cube_map({0.5f, 0.2f, -0.1f}, 0.02f, 8192, 0.002), cube_map({-1, 0.2f, 1}, 0.1f, 2048, 0.03),
+  const std::vector<PageMap> maps{cube_map({0.5f, 0.2f, -0.1f}, 0.02f, 8192, 0.002),
+                                  cube_map({-1, 0.2f, 1}, 0.1f, 2048, 0.03),
                                   spot_map({1, 2, 1}, {-0.3f, -1, 0.2f}, 0.7f, 0.1f, 4096, 0.02)};
   PageRig rig(gpu(), spiteful_scene(200, 7), maps, 7);
   expect_reference(rig, draw(rig, 10000), 0.9);
@@ -200,7 +206,8 @@ TEST_F(PageRasterTest, GivesTheSameBitsHoweverItIsFed) {
   scene.instances.push_back({.mesh = 3, .world_from_mesh = affine(glm::mat3(3), {0.5f, 1.2f, -2.5f})});
   PageRig rig(gpu(), scene, maps, 9);
   const auto plain = draw(rig, 100000);
-  EXPECT_GT(std::count_if(plain.begin(), plain.end(), [](uint32_t key) { return key != 0; }), ptrdiff_t(plain.size() / 2));
+  EXPECT_GT(std::count_if(plain.begin(), plain.end(), [](uint32_t key) { return key != 0; }),
+            ptrdiff_t(plain.size() / 2));
   EXPECT_EQ(draw(rig, 100000), plain) << "the second time";
   EXPECT_EQ(draw(rig, 0), plain) << "without a queue";
   EXPECT_EQ(draw(rig, 3), plain) << "with a queue that overflows";
@@ -228,7 +235,8 @@ Difference difference(const std::vector<uint32_t>& a, const std::vector<uint32_t
 }
 
 const std::vector<PageMap> kFewMaps{cube_map({0, 0, 0}, 0.05f, 1024), cube_map({0.1f, 3, 0.2f}, 0.05f, 512, 0.7),
-                                    cube_map({0.1f, 3, 0.2f}, 0.05f, 32), spot_map({-3, 3, 0.5f}, {1, -1, 0.1f}, 0.5f, 0.1f, 1024),
+                                    cube_map({0.1f, 3, 0.2f}, 0.05f, 32),
+                                    spot_map({-3, 3, 0.5f}, {1, -1, 0.1f}, 0.5f, 0.1f, 1024),
                                     ortho_map({0.3f, -1, 0.45f}, glm::vec3(-3), glm::vec3(3), 1024)};
 
 TEST_F(PageRasterTest, AgreesWithTheHardware) {
@@ -250,9 +258,10 @@ TEST_F(PageRasterTest, CutsMasksAsTheHardware) {
   TestScene scene;
   scene.meshes = {masked_mesh(), box_mesh()};
   for (uint32_t i = 0; i < 12; ++i)
-    scene.instances.push_back({.mesh = i == 0,
-                               .world_from_mesh = random_affine(
-                                   i + 20, {3 * std::sin(2.4f * float(i)), 2 * std::sin(1.3f * float(i)), 3 * std::cos(2.4f * float(i))})});
+    scene.instances.push_back(
+        {.mesh = i == 0,
+         .world_from_mesh = random_affine(
+             i + 20, {3 * std::sin(2.4f * float(i)), 2 * std::sin(1.3f * float(i)), 3 * std::cos(2.4f * float(i))})});
   PageRig rig(gpu(), scene, kFewMaps, 2);
   for (const uint32_t large : {0u, 1000u}) {
     const Difference found = difference(draw(rig, large), draw_by_fragments(rig));
@@ -291,15 +300,20 @@ TEST_F(PageRasterTest, CoversTexelCentresOnEdgesOnce) {
   struct Quad {
     double left, top, right, bottom;
   };
-  const Quad quads[] = {
-      {10.5, 10.5, 20.5, 14.5}, {100.5, 3.5, 164.5, 67.5}, {0, 200, 256, 256}, {30.5, 100.5, 31.5, 101.5}, {120.25, 120.75, 136.5, 135.5}};
+  const Quad quads[] = {{10.5, 10.5, 20.5, 14.5},
+                        {100.5, 3.5, 164.5, 67.5},
+                        {0, 200, 256, 256},
+                        {30.5, 100.5, 31.5, 101.5},
+                        {120.25, 120.75, 136.5, 135.5}};
   for (const bool falling : {true, false}) {
     TestScene scene;
     TestMesh mesh;
     for (const Quad& quad : quads) {
       const uint32_t first = static_cast<uint32_t>(mesh.positions.size());
-      for (const glm::dvec2& corner :
-           {glm::dvec2(quad.left, quad.top), {quad.right, quad.top}, {quad.right, quad.bottom}, {quad.left, quad.bottom}})
+      for (const glm::dvec2& corner : {glm::dvec2(quad.left, quad.top),
+                                       {quad.right, quad.top},
+                                       {quad.right, quad.bottom},
+                                       {quad.left, quad.bottom}})
         mesh.positions.push_back(to_vec3(at_texel(corner.x, corner.y, kSide)));
       for (const uint32_t i : falling ? std::array{0u, 1u, 2u, 0u, 2u, 3u} : std::array{0u, 3u, 1u, 1u, 2u, 3u})
         mesh.indices.push_back(first + i);

@@ -182,7 +182,8 @@ TEST_F(PhysicalPool, AnswersTheSameWhateverIsCulled) {
 /// 16 bits may light what lies within a step of its caster, and nothing else changes.
 TEST_F(PhysicalPool, AnswersAsThePagePoolBut16Bits) {
   const SeenScene scene = balls_scene(60, 40, 75);
-  const FrameSettings frozen{.layout = MapLayout::exact, .maps_per_light = 1, .min_resolution = 256, .max_resolution = 256};
+  const FrameSettings frozen{
+      .layout = MapLayout::exact, .maps_per_light = 1, .min_resolution = 256, .max_resolution = 256};
   const Pairs pages = PairRig(gpu(), {}, scene).settle(frozen),
               cubes = PairRig(gpu(), {.store = Store::physical_pool}, scene).settle(frozen);
   ASSERT_EQ(pages.visibility.size(), cubes.visibility.size());

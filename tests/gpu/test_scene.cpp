@@ -16,7 +16,8 @@ TestMesh sphere_mesh(uint32_t rings, uint32_t segments) {
   for (uint32_t ring = 0; ring <= rings; ++ring) {
     for (uint32_t segment = 0; segment <= segments; ++segment) {
       const double polar = M_PI * ring / rings, around = 2 * M_PI * (segment % segments) / segments;
-      mesh.positions.push_back({static_cast<float>(std::sin(polar) * std::cos(around)), static_cast<float>(std::cos(polar)),
+      mesh.positions.push_back({static_cast<float>(std::sin(polar) * std::cos(around)),
+                                static_cast<float>(std::cos(polar)),
                                 static_cast<float>(std::sin(polar) * std::sin(around))});
     }
   }
@@ -32,8 +33,10 @@ TestMesh sphere_mesh(uint32_t rings, uint32_t segments) {
 
 TestMesh box_mesh() {
   TestMesh mesh;
-  for (uint32_t i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
-  mesh.indices = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  for (uint32_t i = 0; i < 8; ++i)
+    mesh.positions.push_back({i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
+  mesh.indices = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                  2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
   return mesh;
 }
 
@@ -70,7 +73,8 @@ Affine random_affine(uint32_t seed, const glm::vec3& translation) {
   std::mt19937 engine(seed);
   std::normal_distribution<float> normal;
   std::uniform_real_distribution<float> size(0.2f, 1.2f);
-  const glm::mat3 turn = glm::mat3_cast(glm::normalize(glm::quat(normal(engine), normal(engine), normal(engine), normal(engine))));
+  const glm::mat3 turn =
+      glm::mat3_cast(glm::normalize(glm::quat(normal(engine), normal(engine), normal(engine), normal(engine))));
   glm::vec3 scale(size(engine), size(engine), size(engine));
   if (engine() % 4 == 0) scale.x = -scale.x;
   return affine(turn * glm::mat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z), translation);
@@ -104,7 +108,8 @@ LightDesc random_light(uint32_t index, std::mt19937& engine) {
   return light;
 }
 
-CameraDesc camera_at(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height, const glm::mat4& clip) {
+CameraDesc camera_at(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height,
+                     const glm::mat4& clip) {
   CameraDesc camera;
   const glm::mat4 view = glm::lookAt(eye, target, glm::vec3(0, 1, 0));
   std::memcpy(camera.view_from_world.m, &view, sizeof view);
@@ -154,7 +159,8 @@ CameraDesc finite_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t
   return camera_at(eye, target, width, height, clip);
 }
 
-CameraDesc orthographic_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height, float half_height, float far_m) {
+CameraDesc orthographic_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height,
+                               float half_height, float far_m) {
   glm::mat4 clip(0);
   clip[0][0] = float(height) / float(width) / half_height;
   clip[1][1] = -1 / half_height;
@@ -169,10 +175,12 @@ std::optional<Surface> balls_on_ground(const glm::vec3& origin, const glm::vec3&
     if (t > 0 && (!nearest || t < nearest->t)) nearest = Surface{t, normal};
   };
   if (direction.y < 0) offer(-origin.y / direction.y, {0, 1, 0});
-  const glm::vec4 balls[] = {{0, 1, 0, 1}, {4, 2, -3, 2}, {-5, 0.7f, 3, 0.7f}, {2, 0.4f, 6, 0.4f}, {-8, 3, -8, 3}, {9, 1.5f, 4, 1.5f}};
+  const glm::vec4 balls[] = {{0, 1, 0, 1},       {4, 2, -3, 2},  {-5, 0.7f, 3, 0.7f},
+                             {2, 0.4f, 6, 0.4f}, {-8, 3, -8, 3}, {9, 1.5f, 4, 1.5f}};
   for (const glm::vec4& ball : balls) {
     const glm::vec3 centre(ball), offset = origin - centre;
-    const float a = glm::dot(direction, direction), b = glm::dot(direction, offset), c = glm::dot(offset, offset) - ball.w * ball.w;
+    const float a = glm::dot(direction, direction), b = glm::dot(direction, offset),
+                c = glm::dot(offset, offset) - ball.w * ball.w;
     if (b * b < a * c) continue;
     const float t = (-b - std::sqrt(b * b - a * c)) / a;
     offer(t, (offset + direction * t) / ball.w);

@@ -57,7 +57,8 @@ TestScene mixed_scene(uint32_t instances, uint32_t lights, uint32_t seed);
 CameraDesc perspective_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height);
 /// The same with a far plane, 0 at the near plane.
 CameraDesc finite_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height, float far_m);
-CameraDesc orthographic_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height, float half_height, float far_m);
+CameraDesc orthographic_camera(const glm::vec3& eye, const glm::vec3& target, uint32_t width, uint32_t height,
+                               float half_height, float far_m);
 
 struct Surface {
   float t = 0;  ///< View depth.
@@ -72,9 +73,9 @@ std::optional<Surface> balls_on_ground(const glm::vec3& origin, const glm::vec3&
 /// A picture of receivers, row by row: what the host would have drawn.
 struct Receivers {
   uint32_t width = 0, height = 0;
-  std::vector<float> depth;       ///< 0: background.
+  std::vector<float> depth;  ///< 0: background.
   std::vector<glm::vec4> normals;
-  std::vector<float> t;           ///< View depth as the shaders compute it from `depth`.
+  std::vector<float> t;  ///< View depth as the shaders compute it from `depth`.
   std::vector<glm::vec3> positions;
 };
 Receivers picture(const CameraDesc&, const Receiver&);

@@ -23,7 +23,8 @@ struct DeviceScene {
     Gpu& gpu = rig.gpu();
     const uint32_t slots = scene.caster_slots();
     casters = gpu.download<shared::CasterRecord>(scene.caster_buffer(), slots);
-    batches = gpu.download<shared::BatchRecord>(scene.batch_buffer(), scene.batch_buffer().size() / sizeof(shared::BatchRecord));
+    batches = gpu.download<shared::BatchRecord>(scene.batch_buffer(),
+                                                scene.batch_buffer().size() / sizeof(shared::BatchRecord));
     indices = gpu.download<uint32_t>(scene.index_buffer(), scene.index_buffer().size() / sizeof(uint32_t));
     const auto order = gpu.download<uint32_t>(scene.caster_tree().order(), slots);
     const auto leaves = gpu.download<shared::Box>(scene.caster_tree().leaves(), slots);
@@ -48,8 +49,8 @@ std::vector<Triangle> sorted_triangles(const uint32_t* indices, size_t count) {
 }
 
 /// Box of a batch's vertices in double precision, and by how much a float sum of three products may be off it.
-void expect_box(const shared::Box& box, const shared::BatchRecord& batch, const std::vector<uint32_t>& indices, const TestMesh& mesh,
-                const Affine& world, const std::string& what) {
+void expect_box(const shared::Box& box, const shared::BatchRecord& batch, const std::vector<uint32_t>& indices,
+                const TestMesh& mesh, const Affine& world, const std::string& what) {
   for (int axis = 0; axis < 3; ++axis) {
     double lo = 1e30, hi = -1e30, rounding = 0;
     for (uint32_t i = 0; i < batch.index_count; ++i) {
@@ -84,13 +85,15 @@ void expect_scene(SystemRig& rig, const TestScene& scene, const std::vector<bool
     const shared::BatchRecord& batch = device.batches[caster.batch];
     const auto first = device.indices.begin() + batch.first_index;
     drawn[i].insert(drawn[i].end(), first, first + batch.index_count);
-    expect_box(device.boxes[c], batch, device.indices, scene.meshes[scene.instances[i].mesh], scene.instances[i].world_from_mesh,
-               "caster " + std::to_string(c));
+    expect_box(device.boxes[c], batch, device.indices, scene.meshes[scene.instances[i].mesh],
+               scene.instances[i].world_from_mesh, "caster " + std::to_string(c));
   }
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const bool casts = alive[i] && scene.instances[i].casts;
     const std::vector<uint32_t>& mesh = scene.meshes[scene.instances[i].mesh].indices;
-    ASSERT_EQ(sorted_triangles(drawn[i].data(), drawn[i].size()), sorted_triangles(mesh.data(), casts ? mesh.size() : 0)) << "instance " << i;
+    ASSERT_EQ(sorted_triangles(drawn[i].data(), drawn[i].size()),
+              sorted_triangles(mesh.data(), casts ? mesh.size() : 0))
+        << "instance " << i;
   }
 }
 
@@ -160,7 +163,8 @@ TEST_F(SceneOnDevice, DeformedPositionsAreBoundWhenMarked) {
   rig.show_nothing();
   const MeshId id = rig.add(mesh);
   const gpu::Buffer stream = gpu().upload(mesh.positions);
-  const InstanceId instance = take(rig.system().add_instance({.mesh = id, .mobility = Mobility::movable, .deformed = {stream.address(), sizeof(Vec3)}}));
+  const InstanceId instance = take(rig.system().add_instance(
+      {.mesh = id, .mobility = Mobility::movable, .deformed = {stream.address(), sizeof(Vec3)}}));
   rig.frame();
   EXPECT_EQ(DeviceScene(rig).boxes[0].hi, glm::vec3(1, 1, 1));
   const gpu::Buffer next = gpu().upload(moved);

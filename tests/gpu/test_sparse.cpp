@@ -176,10 +176,8 @@ TEST_F(HardwareSparse, RoundsResolutionsUpToPages) {
   const uint32_t page = rig.stages().sparse.form().page.x;
   uint32_t small = 0, whole = 0;
   for (const uint32_t undersampling : {1u, 2u, 4u}) {
-    const FrameSettings settings{.layout = MapLayout::exact,
-                                 .maps_per_light = 4,
-                                 .undersampling = undersampling,
-                                 .min_resolution = 4};
+    const FrameSettings settings{
+        .layout = MapLayout::exact, .maps_per_light = 4, .undersampling = undersampling, .min_resolution = 4};
     rig.settle(settings);
     EXPECT_TRUE(rig.system().degraded_lights().empty());
     const DeviceMaps maps(rig);
@@ -344,7 +342,8 @@ TEST_F(HardwareSparse, RefusesToBindOutOfTurn) {
   EXPECT_EQ(pages.system().bind_pages({.queue = gpu().queue()}).error().code, ErrorCode::invalid_argument);
   PairRig images(gpu(), sparse(), balls_scene(5, 3, 93));
   EXPECT_TRUE(images.system().binds_pages());
-  EXPECT_EQ(images.system().bind_pages({.queue = gpu().queue()}).error().code, ErrorCode::invalid_argument) << "no frame has begun";
+  EXPECT_EQ(images.system().bind_pages({.queue = gpu().queue()}).error().code, ErrorCode::invalid_argument)
+      << "no frame has begun";
   images.settle();
   EXPECT_EQ(images.system().bind_pages({}).error().code, ErrorCode::invalid_argument) << "no queue";
 }

@@ -21,7 +21,7 @@ struct Sample {
 };
 
 constexpr const char* kKinds[] = {"point", "spot", "wide spot", "sun"};
-constexpr float kRounding = 1e-6f;   // of the sum of nine weights
+constexpr float kRounding = 1e-6f;  // of the sum of nine weights
 
 struct Tally {
   uint32_t lit = 0, dark = 0, wrong = 0;
@@ -29,18 +29,24 @@ struct Tally {
 };
 
 /// One frame of the scene with maps of this side, and the visibility of each sample.
-std::vector<float> visibility_of(Gpu& gpu, const TestScene& scene, uint32_t resolution, const std::vector<Sample>& samples) {
-  struct Push { VkDeviceAddress shadows, samples, answers; uint32_t count; };
+std::vector<float> visibility_of(Gpu& gpu, const TestScene& scene, uint32_t resolution,
+                                 const std::vector<Sample>& samples) {
+  struct Push {
+    VkDeviceAddress shadows, samples, answers;
+    uint32_t count;
+  };
   SystemRig rig(gpu, {.budget_mib = 256});
   rig.add(scene);
   rig.show_nothing();
-  const gpu::Buffer input = gpu.upload(samples), output = gpu.buffer(samples.size() * sizeof(float), gpu::MemoryKind::device, "visibility");
+  const gpu::Buffer input = gpu.upload(samples),
+                    output = gpu.buffer(samples.size() * sizeof(float), gpu::MemoryKind::device, "visibility");
   const VkDescriptorSetLayout layout = rig.system().descriptor_set_layout();
   const Program program(gpu, kEvaluate, {&layout, 1});
   rig.frame({.min_resolution = 16, .max_resolution = resolution}, [&](VkCommandBuffer commands) {
     const ShaderInterface shadows = rig.system().shader_interface(rig.camera().id);
     const auto count = static_cast<uint32_t>(samples.size());
-    program.dispatch(commands, shadows.set, Push{shadows.frame, input.address(), output.address(), count}, (count + 63) / 64);
+    program.dispatch(commands, shadows.set, Push{shadows.frame, input.address(), output.address(), count},
+                     (count + 63) / 64);
   });
   EXPECT_EQ(rig.map_resolution(), resolution);
   return gpu.download<float>(output, samples.size());
@@ -53,9 +59,12 @@ glm::mat3 random_turn(std::mt19937& engine) {
 
 /// A light of a kind at `position` that shines down the turned -y axis.
 LightDesc light_of(uint32_t kind, const glm::mat3& turn, const glm::vec3& position, uint32_t index) {
-  LightDesc light{.position = to_vec3(position), .direction = to_vec3(turn * glm::vec3(0, -1, 0)), .range_m = 20, .host_index = index};
+  LightDesc light{.position = to_vec3(position),
+                  .direction = to_vec3(turn * glm::vec3(0, -1, 0)),
+                  .range_m = 20,
+                  .host_index = index};
   if (kind == 1) light.type = LightType::spot, light.outer_cone_rad = 1.0f;
-  if (kind == 2) light.type = LightType::spot, light.outer_cone_rad = 1.3f;   // as a cube
+  if (kind == 2) light.type = LightType::spot, light.outer_cone_rad = 1.3f;  // as a cube
   if (kind == 3) light.type = LightType::directional;
   return light;
 }
@@ -67,7 +76,8 @@ float bands_outside(uint32_t kind, const glm::vec2& p, uint32_t resolution) {
   const float outside = std::max(std::abs(p.x), std::abs(p.y)) - (sun ? 0.5f : 1.0f);
   const float distance = std::sqrt(16 + glm::dot(p, p));
   const float tangent = kind == 1 ? shared::spot_tangent(1.0f, resolution, shared::ViewGuardTexels) : 1.0f;
-  const float texel = sun ? 2 * 12 * 1.75f * 17 / 16 / float(resolution) : shared::texel_size_m(distance, tangent, resolution) * distance / 4;
+  const float texel = sun ? 2 * 12 * 1.75f * 17 / 16 / float(resolution)
+                          : shared::texel_size_m(distance, tangent, resolution) * distance / 4;
   return outside / (2 * std::sqrt(2.0f) * texel);
 }
 
@@ -79,12 +89,14 @@ TEST_F(Visibility, OfASquaresShadowIsExactOutsideItsEdge) {
   scene.meshes = {plane_mesh(1)};
   std::vector<Sample> samples;
   std::vector<float> outside;
-  for (uint32_t index = 0; index < 4 * kTrials; ++index) {   // each light sees its own casters only
+  for (uint32_t index = 0; index < 4 * kTrials; ++index) {  // each light sees its own casters only
     const uint32_t kind = index / kTrials, mask = 1u << index;
     std::mt19937 engine(index);
     const glm::mat3 turn = index % kTrials == 0 ? glm::mat3(1) : random_turn(engine);
-    scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(12), turn * glm::vec3(0, -4, 0)), .light_mask = mask});
-    scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(0.5f), turn * glm::vec3(0, -2, 0)), .light_mask = mask});
+    scene.instances.push_back(
+        {.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(12), turn * glm::vec3(0, -4, 0)), .light_mask = mask});
+    scene.instances.push_back(
+        {.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(0.5f), turn * glm::vec3(0, -2, 0)), .light_mask = mask});
     scene.lights.push_back(light_of(kind, turn, {0, 0, 0}, index));
     scene.lights.back().light_mask = mask;
     std::uniform_real_distribution<float> place(-3, 3);
@@ -120,10 +132,13 @@ void add_slope(const glm::vec3& origin, uint32_t index, TestScene& scene, std::v
   std::mt19937 engine(index);
   const glm::mat3 turn = random_turn(engine);
   const float angle = glm::radians(kSlopes[index % kSlopes.size()]);
-  const glm::vec3 down = turn * glm::vec3(0, -1, 0), along = turn * glm::vec3(1, 0, 0), side = turn * glm::vec3(0, 0, 1);
-  const glm::vec3 normal = glm::normalize(-down * std::cos(angle) + along * std::sin(angle)), up = glm::cross(normal, side);
+  const glm::vec3 down = turn * glm::vec3(0, -1, 0), along = turn * glm::vec3(1, 0, 0),
+                  side = turn * glm::vec3(0, 0, 1);
+  const glm::vec3 normal = glm::normalize(-down * std::cos(angle) + along * std::sin(angle)),
+                  up = glm::cross(normal, side);
   const glm::vec3 foot = origin + down * 3.0f;
-  scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(glm::mat3(up, normal, side) * 6.0f, foot), .light_mask = mask});
+  scene.instances.push_back(
+      {.mesh = 0, .world_from_mesh = affine(glm::mat3(up, normal, side) * 6.0f, foot), .light_mask = mask});
   scene.lights.push_back(light_of(kind, turn, origin, index));
   scene.lights.back().light_mask = mask;
   std::uniform_real_distribution<float> place(-5.9f, 5.9f);
@@ -166,8 +181,9 @@ TEST_F(Visibility, OfFlatReceiversIsFullAtAnySlope) {
         tally.darkest = std::min(tally.darkest, visibility[i]);
       }
       for (uint32_t index = 0; index < tallies.size(); ++index)
-        EXPECT_EQ(tallies[index].wrong, 0u) << kKinds[index / kSlopes.size()] << " at " << kSlopes[index % kSlopes.size()] << " degrees, " << resolution
-                                            << " texels, " << origin.x << " m off: of " << tallies[index].lit << ", darkest " << tallies[index].darkest;
+        EXPECT_EQ(tallies[index].wrong, 0u)
+            << kKinds[index / kSlopes.size()] << " at " << kSlopes[index % kSlopes.size()] << " degrees, " << resolution
+            << " texels, " << origin.x << " m off: of " << tallies[index].lit << ", darkest " << tallies[index].darkest;
     }
   }
 }
@@ -178,15 +194,17 @@ TEST_F(Visibility, OfAPlaneThatHoldsTheLightIsThatInFrontOfIt) {
   TestScene scene;
   scene.meshes = {plane_mesh(4)};
   std::vector<Sample> samples;
-  const std::array<float, 4> heights_m{1e-6f, 1e-4f, 1e-3f, 1e-2f};   // of the light above the face
+  const std::array<float, 4> heights_m{1e-6f, 1e-4f, 1e-3f, 1e-2f};  // of the light above the face
   for (uint32_t index = 0; index < 2 * heights_m.size(); ++index) {
     const uint32_t kind = index % 2, mask = 1u << index;
     std::mt19937 engine(index);
     const glm::mat3 turn = index < 2 ? glm::mat3(1) : random_turn(engine);
     // The wall's face is y = 0; the block is the square x = 2, -1 <= y, z <= 1.
     const glm::mat3 stand(glm::vec3(0, 1, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1));
-    scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(8), glm::vec3(0)), .light_mask = mask});
-    scene.instances.push_back({.mesh = 0, .world_from_mesh = affine(turn * stand, turn * glm::vec3(2, 0, 0)), .light_mask = mask});
+    scene.instances.push_back(
+        {.mesh = 0, .world_from_mesh = affine(turn * glm::mat3(8), glm::vec3(0)), .light_mask = mask});
+    scene.instances.push_back(
+        {.mesh = 0, .world_from_mesh = affine(turn * stand, turn * glm::vec3(2, 0, 0)), .light_mask = mask});
     LightDesc light = light_of(kind, turn, turn * glm::vec3(0, heights_m[index / 2], 0), index);
     light.direction = to_vec3(turn * glm::vec3(1, 0, 0));
     light.light_mask = mask;
@@ -222,7 +240,8 @@ TEST_F(Visibility, OfAFineSphereIsFullWhereItFacesTheLight) {
     std::uniform_real_distribution<float> unit(0, 1);
     for (size_t i = 0; i < sphere.indices.size(); i += 3) {
       glm::vec3 p[3];
-      for (size_t k = 0; k < 3; ++k) p[k] = transform(scene.instances[kind].world_from_mesh, sphere.positions[sphere.indices[i + k]]);
+      for (size_t k = 0; k < 3; ++k)
+        p[k] = transform(scene.instances[kind].world_from_mesh, sphere.positions[sphere.indices[i + k]]);
       float u = unit(engine), v = unit(engine);
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const glm::vec3 at = p[0] + (p[1] - p[0]) * u + (p[2] - p[0]) * v;
@@ -240,7 +259,8 @@ TEST_F(Visibility, OfAFineSphereIsFullWhereItFacesTheLight) {
       tallies[samples[i].light].wrong += visibility[i] < 0.5f;
     }
     for (uint32_t kind = 0; kind < 4; ++kind)
-      EXPECT_LE(tallies[kind].wrong, tallies[kind].lit / 1000) << kKinds[kind] << ", " << resolution << " texels, of " << tallies[kind].lit;
+      EXPECT_LE(tallies[kind].wrong, tallies[kind].lit / 1000)
+          << kKinds[kind] << ", " << resolution << " texels, of " << tallies[kind].lit;
   }
 }
 

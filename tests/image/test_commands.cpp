@@ -32,9 +32,11 @@ Arguments room(const std::string& command, const Arguments& more) {
   return arguments;
 }
 
-constexpr const char* kShows[] = {"clusters",   "explicit-bounds",  "lights-per-pixel", "normals",         "depth",
-                                  "resolution", "texels-per-pixel", "pages",            "triangles-per-map", "projection-maps", "cube-projection"};
-constexpr const char* kShowsOfLights[] = {"resolution", "texels-per-pixel", "pages", "triangles-per-map", "projection-maps"};
+constexpr const char* kShows[] = {
+    "clusters",         "explicit-bounds", "lights-per-pixel",  "normals",         "depth",          "resolution",
+    "texels-per-pixel", "pages",           "triangles-per-map", "projection-maps", "cube-projection"};
+constexpr const char* kShowsOfLights[] = {"resolution", "texels-per-pixel", "pages", "triangles-per-map",
+                                          "projection-maps"};
 
 Outcome run_well(const Arguments& arguments) {
   Outcome outcome = run_program(arguments);
@@ -197,9 +199,7 @@ TEST_P(ShortLists, ChangeNothing) {
   render("long.png", {});
   const nlohmann::json needed = parse_json(read_all(folder.file("s.json")));
   ASSERT_GT(needed["cluster_light_pairs"], 1024);
-  if (std::string(GetParam()) == "fixed-cubes") {
-    ASSERT_GT(needed["caster_pairs"], 1024);
-  }
+  if (std::string(GetParam()) == "fixed-cubes") { ASSERT_GT(needed["caster_pairs"], 1024); }
   render("short.png", {"--set", "max_cluster_light_pairs=1024", "--set", "max_caster_pairs=1024"});
   EXPECT_EQ(parse_json(read_all(folder.file("s.json")))["overflows"], 0);
   EXPECT_EQ(read_all(folder.file("short.png")), read_all(folder.file("long.png")));
@@ -315,7 +315,8 @@ TEST(Render, DebugPicturesOfMapsAreAboutTheLightAskedFor) {
   };
   refuse({"--show", "pages", "--show-light", "4"}, "there is no light 4");
   refuse({"--show", "depth", "--show-light", "0"}, "not about one light");
-  for (const char* show : {"pages", "triangles-per-map", "projection-maps"}) refuse({"--show", show, "--preset", "fixed-cubes"}, "store=page_pool");
+  for (const char* show : {"pages", "triangles-per-map", "projection-maps"})
+    refuse({"--show", show, "--preset", "fixed-cubes"}, "store=page_pool");
 }
 
 TEST(Render, FixedCubesHaveDebugPicturesOfTheirOneResolution) {
@@ -323,9 +324,10 @@ TEST(Render, FixedCubesHaveDebugPicturesOfTheirOneResolution) {
   for (const char* show : {"resolution", "texels-per-pixel"}) {
     Names different;
     for (const char* side : {"64", "256"}) {
-      const std::string smallest = std::string("min_resolution=") + side, largest = std::string("max_resolution=") + side;
-      run_well(room("render", {"-o", folder.file("show.png"), "--preset", "fixed-cubes", "--set", smallest, "--set", largest,
-                               "--show", show}));
+      const std::string smallest = std::string("min_resolution=") + side,
+                        largest = std::string("max_resolution=") + side;
+      run_well(room("render", {"-o", folder.file("show.png"), "--preset", "fixed-cubes", "--set", smallest, "--set",
+                               largest, "--show", show}));
       different.insert(read_all(folder.file("show.png")));
     }
     // The cube is the light's, whatever its map.
@@ -339,7 +341,7 @@ TEST(Render, EveryPixelSeesAMarkedPage) {
   for (const char* light : {"0", "1", "2", "3"}) {
     run_well(room("render", {"-o", folder.file("pages.png"), "--show", "pages", "--show-light", light}));
     const std::vector<uint8_t> pixels = pixels_of(folder.file("pages.png"));
-    size_t unmarked = 0;   // Magenta, dimmed where the image is dark.
+    size_t unmarked = 0;  // Magenta, dimmed where the image is dark.
     for (size_t i = 0; i < pixels.size(); i += 3)
       unmarked += pixels[i] > 100 && pixels[i] == pixels[i + 2] && pixels[i + 1] == 0;
     EXPECT_EQ(unmarked, 0u) << light;
@@ -437,11 +439,13 @@ TEST(Validation, IsSilentOnEveryWriterAndPicture) {
   const TemporaryFolder folder;
   if (!parse_json(run_well({"info", "--json"}).out)["validation_layer"])
     GTEST_SKIP() << "the validation layers are not installed";
-  const std::pair<const char*, const char*> writers[] = {{"fixed-cubes", "writer=traditional"}, {"fixed-cubes", "writer=multi_draw"},
-                                                         {"default", "writer=compute"}, {"default", "writer=fragments"}};
+  const std::pair<const char*, const char*> writers[] = {{"fixed-cubes", "writer=traditional"},
+                                                         {"fixed-cubes", "writer=multi_draw"},
+                                                         {"default", "writer=compute"},
+                                                         {"default", "writer=fragments"}};
   for (const auto& [preset, writer] : writers)
-    run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--frames", "3", "--preset", preset, "--set", writer, "--dump",
-                             folder.file("d")}));
+    run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--frames", "3", "--preset", preset, "--set",
+                             writer, "--dump", folder.file("d")}));
   for (const char* show : kShows) run_well(room("render", {"-o", folder.file("a.png"), "--validate", "--show", show}));
 }
 

@@ -40,11 +40,11 @@ std::vector<glm::vec3> vectors_of(const std::filesystem::path& file, size_t side
 /// The room with the ball, seen by a camera of one's own; what it dumps and its statistics are in the folder.
 void draw_room(const TemporaryFolder& folder, const std::string& name, const glm::vec3& eye, const glm::vec3& target,
                const std::string& fov, const std::string& size) {
-  const Outcome outcome = run_program(
-      {"render", data_file("room.gltf"), "-o", folder.file(name + ".png").string(), "--size", size, "--eye",
-       text_of(eye), "--target", text_of(target), "--fov-y", fov, "--mirror-ball",
-       text_of(kBall) + "," + std::to_string(kRadius), "--dump", folder.file(name).string(), "--stats",
-       folder.file(name + ".json").string(), "--validate"});
+  const Outcome outcome =
+      run_program({"render", data_file("room.gltf"), "-o", folder.file(name + ".png").string(), "--size", size, "--eye",
+                   text_of(eye), "--target", text_of(target), "--fov-y", fov, "--mirror-ball",
+                   text_of(kBall) + "," + std::to_string(kRadius), "--dump", folder.file(name).string(), "--stats",
+                   folder.file(name + ".json").string(), "--validate"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
 }
 
@@ -86,8 +86,8 @@ TEST(Mirror, RefusesWhatItCannotDo) {
   const std::string file = folder.file("a.png").string();
   for (const char* ball : {"1,2,3", "1,2,3,0", "1,2,3,-1", "1,2,3,x", ",,,", "1", ""})
     EXPECT_EQ(run_program({"render", data_file("room.gltf"), "-o", file, "--mirror-ball", ball}).status, 2) << ball;
-  const Outcome outcome =
-      run_program({"render", data_file("room.gltf"), "-o", file, "--mirror-ball", "0,1,0,0.5", "--preset", "fixed-cubes"});
+  const Outcome outcome = run_program(
+      {"render", data_file("room.gltf"), "-o", file, "--mirror-ball", "0,1,0,0.5", "--preset", "fixed-cubes"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("store=page_pool"), std::string::npos) << outcome.err;
 }

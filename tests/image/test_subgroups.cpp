@@ -29,9 +29,11 @@ struct Frame {
 Frame frame_at(const std::string& width_bits, const std::string& preset) {
   const TemporaryFolder folder;
   const Variable width("LP_NATIVE_VECTOR_WIDTH", width_bits);
-  const Variable cache("MESA_SHADER_CACHE_DIR", folder.file("cache").string());   // shaders of one width crash at another
-  const Outcome outcome = run_program({"render", data_file("room.gltf"), "--size", "160x96", "--preset", preset, "-o", folder.file("a.png").string(),
-                                       "--dump", folder.file("dump").string(), "--stats", folder.file("stats.json").string()});
+  const Variable cache("MESA_SHADER_CACHE_DIR",
+                       folder.file("cache").string());  // shaders of one width crash at another
+  const Outcome outcome = run_program({"render", data_file("room.gltf"), "--size", "160x96", "--preset", preset, "-o",
+                                       folder.file("a.png").string(), "--dump", folder.file("dump").string(), "--stats",
+                                       folder.file("stats.json").string()});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json statistics = parse_json(read_all(folder.file("stats.json")));
   return {read_all(folder.file("dump") / "visibility.npy"), statistics.value("device", ""), statistics};
@@ -44,7 +46,8 @@ TEST_P(Subgroups, OfEverySizeSeeTheSame) {
   if (narrow.device == wide.device) GTEST_SKIP() << narrow.device << " has one subgroup size";
   ASSERT_FALSE(narrow.visibility.empty());
   EXPECT_EQ(narrow.visibility, wide.visibility);
-  for (const char* key : {"clusters", "cluster_light_pairs", "shadow_maps", "pages_requested", "texels_allocated", "caster_pairs", "triangles_drawn"})
+  for (const char* key : {"clusters", "cluster_light_pairs", "shadow_maps", "pages_requested", "texels_allocated",
+                          "caster_pairs", "triangles_drawn"})
     EXPECT_EQ(narrow.statistics[key], wide.statistics[key]) << key;
 }
 

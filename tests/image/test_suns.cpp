@@ -43,7 +43,8 @@ void expect_right_sun_and_lamps(std::vector<std::string> options) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json report = parse_json(outcome.out);
   const auto& worst = report["worst_lights"];
-  const auto sun = std::find_if(worst.begin(), worst.end(), [](const auto& light) { return light["type"] == "directional"; });
+  const auto sun =
+      std::find_if(worst.begin(), worst.end(), [](const auto& light) { return light["type"] == "directional"; });
   const int evaluated = report["pairs"]["evaluated"], wrong = report["pairs"]["wrong_outside_band"];
   EXPECT_GT(evaluated, 20000);
   EXPECT_EQ(report["overflows"], 0);

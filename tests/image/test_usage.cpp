@@ -40,11 +40,11 @@ TEST(Usage, EverySharedOptionIsInTheHelp) {
     const Outcome outcome = run_program({command, "--help"});
     EXPECT_EQ(outcome.status, 0);
     for (const char* option :
-         {"--size",     "--camera",          "--eye",    "--target",      "--fov-y",
-          "--time",     "--frames",          "--fps",    "--lights",      "--random-lights",
-          "--seed",     "--no-scene-lights", "--preset", "--set",         "--budget",
-          "--device",   "--validate",        "--show",   "--path",        "--trace",
-          "--settings", "--stats",           "--dump",   "--dump-lights", "--irradiance-threshold",
+         {"--size",      "--camera",          "--eye",    "--target",      "--fov-y",
+          "--time",      "--frames",          "--fps",    "--lights",      "--random-lights",
+          "--seed",      "--no-scene-lights", "--preset", "--set",         "--budget",
+          "--device",    "--validate",        "--show",   "--path",        "--trace",
+          "--settings",  "--stats",           "--dump",   "--dump-lights", "--irradiance-threshold",
           "--show-light"})
       EXPECT_NE(outcome.out.find(std::string(option) + " "), std::string::npos) << command << ' ' << option;
   }
@@ -55,7 +55,8 @@ TEST(Usage, ShowListNamesTheDebugPicturesWithoutAScene) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* name : {"image", "clusters", "explicit-bounds", "lights-per-pixel", "normals", "depth", "resolution",
                            "texels-per-pixel", "pages", "triangles-per-map", "projection-maps", "cube-projection"})
-    EXPECT_NE(std::string("\n").append(outcome.out).find(std::string("\n").append(name).append(" ")), std::string::npos) << outcome.out;
+    EXPECT_NE(std::string("\n").append(outcome.out).find(std::string("\n").append(name).append(" ")), std::string::npos)
+        << outcome.out;
 }
 
 TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
@@ -64,12 +65,14 @@ TEST(Usage, ListsPresetsAndSettingsWithoutAScene) {
   EXPECT_NE(presets.out.find("fixed-cubes  "), std::string::npos) << presets.out;
   const Outcome settings = run_program({"compare", "--set", "list"});
   EXPECT_EQ(settings.status, 0) << settings.err;
-  EXPECT_NE(settings.out.find("\nwriter=automatic|traditional|multi_draw|compute|fragments  "), std::string::npos) << settings.out;
+  EXPECT_NE(settings.out.find("\nwriter=automatic|traditional|multi_draw|compute|fragments  "), std::string::npos)
+      << settings.out;
 }
 
 TEST(Usage, WrongCommandsExitWith2) {
   expect_error({}, 2, "--help");
-  expect_error({"view", "builtin:houses"}, 2, "there is no command \"view\"; choose from render, compare, bench, layered, info");
+  expect_error({"view", "builtin:houses"}, 2,
+               "there is no command \"view\"; choose from render, compare, bench, layered, info");
   expect_error({"bench", "-o", "x"}, 2, "SUITE is required");
   expect_error({"bench", "other", "-o", "x"}, 2, "layered");
   expect_error({"bench", "layered"}, 2, "--output is required");

@@ -6,9 +6,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "host/textures.hpp"
 #include "host/layer_images.hpp"
 #include "host/layered_geometry.hpp"
+#include "host/textures.hpp"
 
 namespace umbrage::test {
 

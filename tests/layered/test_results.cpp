@@ -36,9 +36,18 @@ TEST(LayeredResults, ComeBackFromJson) {
 
 TEST(LayeredResults, AreBetterKnownByEveryRound) {
   LayeredResults results;
-  results.add({.scene = "s", .maps = 6, .gpu_ms = 4, .gpu_ms_spread = 1, .cpu_us = 3, .splits = 1, .rounds = 1, .repeats = 5});
-  results.add({.scene = "s", .maps = 6, .gpu_ms = 3, .gpu_ms_spread = 0.5, .cpu_us = 5, .splits = 1, .rounds = 1, .repeats = 3});
-  results.add({.scene = "s", .maps = 8, .gpu_ms = 7, .gpu_ms_spread = 0, .cpu_us = 9, .splits = 1, .rounds = 1, .repeats = 5});
+  results.add(
+      {.scene = "s", .maps = 6, .gpu_ms = 4, .gpu_ms_spread = 1, .cpu_us = 3, .splits = 1, .rounds = 1, .repeats = 5});
+  results.add({.scene = "s",
+               .maps = 6,
+               .gpu_ms = 3,
+               .gpu_ms_spread = 0.5,
+               .cpu_us = 5,
+               .splits = 1,
+               .rounds = 1,
+               .repeats = 3});
+  results.add(
+      {.scene = "s", .maps = 8, .gpu_ms = 7, .gpu_ms_spread = 0, .cpu_us = 9, .splits = 1, .rounds = 1, .repeats = 5});
   ASSERT_EQ(results.rows.size(), 2u);
   EXPECT_EQ(results.rows[0].gpu_ms, 3);
   EXPECT_EQ(results.rows[0].gpu_ms_spread, 2) << "up to the worse round's median";

@@ -160,7 +160,9 @@ TEST(Hostile, ImagesWithoutPixels) {
   const auto refused = app::import_gltf(folder.write("test.gltf", empty_image));
   ASSERT_FALSE(refused.ok());
   const std::string& message = refused.error().message;
-  EXPECT_TRUE(message.find("cannot be decoded") != std::string::npos || message.find("not a PNG or JPEG file") != std::string::npos) << message;
+  EXPECT_TRUE(message.find("cannot be decoded") != std::string::npos ||
+              message.find("not a PNG or JPEG file") != std::string::npos)
+      << message;
   expect_cheaply_refused(with_image(png_header(16385, 4)), "more than 16384 pixels a side");
   expect_cheaply_refused(with_image(png_header(0xffffffff, 0xffffffff)), "images[0]: ");
   expect_cheaply_refused(with_image("data:image/png;base64,"), "images[0]: not a PNG or JPEG file");

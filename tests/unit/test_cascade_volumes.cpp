@@ -1,10 +1,10 @@
 // Volumes of cascades: large enough, of constant size, moved by whole steps of a grid that is fixed in the world (C7).
 #include <gtest/gtest.h>
 
-#include <glm/ext/matrix_clip_space.hpp>
-#include <glm/ext/matrix_transform.hpp>
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <random>
 
 #include "cascades/cascade_planner.hpp"
