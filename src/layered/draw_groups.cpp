@@ -89,7 +89,7 @@ void LayeredPass::State::draw_group(VkCommandBuffer commands, const layered::Vie
                                                                          : (1u << group.layer_count) - 1;
   begin_rendering(commands, group);
   for (uint32_t list = 0; list < list_count && scene.caster_count > 0; ++list) {
-    const VkPipeline pipeline = pipelines->find((list & 1) != 0, view_mask);
+    const VkPipeline pipeline = pipelines->find((list & 1) != 0 && !is_color, view_mask);
     if (!pipeline) continue;  // lists of masked batches in a scene without any
     // Fronts, counter-clockwise seen from outside, are clockwise by Vulkan's rule unless view or instance mirrors (eye_point.cpp).
     vk.vkCmdSetFrontFace(commands,
@@ -100,9 +100,8 @@ void LayeredPass::State::draw_group(VkCommandBuffer commands, const layered::Vie
     vk.vkCmdPushConstants(commands, pipelines->layout(), pipelines->push_stages(), 0, sizeof push, &push);
     const VkDeviceSize count_at = at.counts + (index * list_count + list) * sizeof(shared::LayeredCount);
     if (uses_draws())
-      vk.vkCmdDrawIndexedIndirectCount(
-          commands, draws.handle(), row * sizeof(shared::LayeredDraw), block.handle(), count_at,
-          std::min(scene.caster_count, scene.device->limits().max_draw_indirect_count), sizeof(shared::LayeredDraw));
+      vk.vkCmdDrawIndexedIndirectCount(commands, draws.handle(), row * sizeof(shared::LayeredDraw), block.handle(),
+                                       count_at, scene.caster_count, sizeof(shared::LayeredDraw));
     else
       vk.vkCmdDrawMeshTasksIndirectEXT(commands, block.handle(), count_at, 1, sizeof(shared::LayeredCount));
   }

@@ -66,9 +66,10 @@ Result<LayeredPass> LayeredPass::create(LayeredScene& scene, const LayeredPassSe
   const bool masked = in.has_masked && !state->is_color;
   state->limits =
       layered::device_limits(*in.device, in.physical_device, components(state->settings, state->is_color, masked));
-  if (!state->uses_draws() && in.caster_count > state->limits.task_groups)
+  const uint32_t most = state->uses_draws() ? in.device->limits().max_draw_indirect_count : state->limits.task_groups;
+  if (in.caster_count > most)
     return Error{ErrorCode::unsupported, "LayeredWriter::" + std::string(name_of(settings.writer)) + " draws at most " +
-                                             std::to_string(state->limits.task_groups) + " batches on " +
+                                             std::to_string(most) + " batches on " +
                                              in.device_name + ", the scene has " + std::to_string(in.caster_count)};
   auto select = in.factory->compute(
       kSelectCasters, "select casters",

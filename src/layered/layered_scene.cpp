@@ -113,6 +113,8 @@ Result<void> LayeredScene::State::add_mesh(const LayeredMesh& mesh, size_t index
       const uint32_t packed =
           skin.bones[0] | uint32_t(skin.bones[1]) << 8 | uint32_t(skin.bones[2]) << 16 | uint32_t(skin.bones[3]) << 24;
       out.skins.push_back({packed, {skin.weights[0], skin.weights[1], skin.weights[2], skin.weights[3]}});
+      for (const uint8_t bone : skin.bones)
+        if (bone != shared::NoBone) meshes.back().bones = std::max(meshes.back().bones, bone + 1u);
     }
   }
   return {};
@@ -126,6 +128,9 @@ Result<void> LayeredScene::State::add_instance(const LayeredInstance& instance, 
   if (instance.bones > shared::NoBone) return invalid(where + ".bones: at most 255");
   const MeshRange& mesh = meshes[instance.mesh];
   if (instance.bones && !mesh.is_skinned) return invalid(where + ": bones, but its mesh has no skin");
+  if (instance.bones && instance.bones < mesh.bones)
+    return invalid(where + ".bones: " + std::to_string(instance.bones) + ", but the skin of its mesh names bone " +
+                   std::to_string(mesh.bones - 1));
   shared::LayeredInstanceRecord record{};
   set_rows(record, instance.world_from_mesh);
   record.first_bone = instance.bones ? static_cast<uint32_t>(bones.size() / 3) : NoIndex;

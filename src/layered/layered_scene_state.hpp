@@ -27,6 +27,7 @@ struct LayeredScene::State {
   struct MeshRange {
     uint32_t first_batch = 0, batch_count = 0;
     bool is_skinned = false;
+    uint32_t bones = 0;  // that its skin names, from 0 on
   };
   struct FrameSlot {
     gpu::Uploader uploader;

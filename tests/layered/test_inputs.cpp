@@ -56,6 +56,9 @@ TEST_F(LayeredInputs, RefusesBrokenScenes) {
   arrays = one_ring();
   arrays.meshes[0].skin.resize(arrays.meshes[0].positions.size());
   EXPECT_NE(refused(arrays).find("weights sum to"), std::string::npos);
+  for (LayeredSkin& skin : arrays.meshes[0].skin) skin = {.bones = {0, 5, 255, 255}, .weights = {0.5f, 0.5f, 0, 0}};
+  arrays.instances[0].bones = 5;
+  EXPECT_NE(refused(arrays).find("instances[0].bones"), std::string::npos);
   arrays = one_ring();
   arrays.instances[0].bones = 3;
   EXPECT_NE(refused(arrays).find("no skin"), std::string::npos);

@@ -1,4 +1,4 @@
-// Every writer draws the same layers: hardware writers bit by bit, compute within the class of hardware against compute.
+// Every writer draws the same layers: vertex-shader writers bit by bit, the others as close as docs/layered-rendering.md says.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -216,6 +216,36 @@ TEST_F(LayeredScenes, SponzaWithItsMasksIsTheSame) {
     // Masks: the compute writer takes one level of detail for a triangle. Elsewhere clipping by clip distances rounds anew.
     EXPECT_LE(difference.coverage, 2u) << name_of(writer);
     EXPECT_LE(difference.deeper, writer == LayeredWriter::compute ? difference.covered / 500 : 0) << name_of(writer);
+  }
+}
+
+/// Mirrored instances have lists of their own where the hardware culls; in colour passes their fragment shader is the host's.
+TEST_F(LayeredScenes, ColourPassesDrawMaskedBatchesWhereFacesAreCulled) {
+  const std::string file = scene_file("sponza/sponza.gltf");
+  if (file.empty()) GTEST_SKIP() << "no sponza";
+  if (!has(LayeredWriter::geometry_loop)) GTEST_SKIP() << "no geometry shader to compare with";
+  const app::Scene sponza = take(app::import_gltf(file));
+  const app::TextureTable textures = take(app::TextureTable::create(gpu(), sponza));
+  app::LayeredArrays arrays = app::layered_arrays(sponza, app::pose(sponza, 0), &textures);
+  ASSERT_GE(arrays.masks.size(), 3u);
+  const size_t instances = arrays.instances.size();
+  for (size_t i = 0; i < instances; ++i) {
+    arrays.instances.push_back(arrays.instances[i]);
+    for (int row = 0; row < 3; ++row) arrays.instances.back().world_from_mesh.m[4 * row] *= -1;
+  }
+  LayeredScene drawn_scene = scene(arrays);
+  const std::vector<LayeredView> views = cube_views({-5, 3, 0}, 0.1f, 60);
+  LayeredPassSettings settings{
+      .writer = LayeredWriter::geometry_loop, .culled_faces = CulledFaces::back, .color_fragment = kWriteInputs};
+  const Drawn expected = draw(drawn_scene, settings, views, 128, 128);
+  for (const LayeredWriter writer : {LayeredWriter::traditional, LayeredWriter::vertex_layer}) {
+    if (!has(writer)) continue;
+    settings.writer = writer;
+    const Drawn found = draw(drawn_scene, settings, views, 128, 128);
+    const Difference difference = compare(expected.depth, found.depth, 4e-6f, 128);
+    EXPECT_GT(difference.covered, expected.depth.size() * 9 / 10);
+    EXPECT_LE(difference.coverage, difference.covered / 1000) << name_of(writer);
+    EXPECT_LE(difference.deeper, difference.covered / 1000) << name_of(writer);
   }
 }
 
