@@ -7,7 +7,7 @@ UMB_NAMESPACE_BEGIN
 
 /// Cascades of all lights.
 UMB_CONST uint MaxCascades = 64u;
-/// Times of frames, growing from frame to frame. The planner begins anew before they reach NeverMoves, after 24 days.
+/// Times of frames, growing from frame to frame. The planner begins anew half way to NeverMoves, after 12 days.
 UMB_CONST uint TicksPerSecond = 1000u;
 
 /// What the device knows of a cascade from frame to frame, and what it counted in this one.

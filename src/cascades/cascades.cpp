@@ -77,9 +77,9 @@ void Cascades::tick(double time_s) {
     table_.now = 1;
     return;
   }
-  const double ticks = std::clamp((time_s - first_time_s_) * shared::TicksPerSecond, 0.0, double(shared::NeverMoves));
+  const double ticks = (time_s - first_time_s_) * shared::TicksPerSecond;
   table_.before = table_.now;
-  table_.now = std::max(table_.now + 1, static_cast<uint32_t>(ticks));
+  table_.now = std::max(table_.now + 1, static_cast<uint32_t>(std::clamp(ticks, 0.0, double(shared::NeverMoves - 1))));
 }
 
 Result<void> Cascades::begin(const gpu::Device& device, gpu::Memory& memory, const scene::GpuScene& scene,
@@ -92,6 +92,10 @@ Result<void> Cascades::begin(const gpu::Device& device, gpu::Memory& memory, con
   std::copy(records.begin(), records.end(), table_.records);
   most_side_ = records.empty() ? 0 : records[0].side;
   table_.texels = planner_.texels();
+  if (3ull * table_.texels > UINT32_MAX)
+    return Error{ErrorCode::invalid_argument,
+                 "cascades: " + std::to_string(records.size()) + " of " + std::to_string(records[0].side) +
+                     " texels a side are more than 32 bits can number; lower cascade_resolution or cascade_count"};
   table_.cascades = static_cast<uint32_t>(records.size());
   table_.count = in.settings.count;
   table_.static_after = in.settings.static_after;

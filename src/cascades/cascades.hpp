@@ -19,7 +19,7 @@ class Cascades {
     double time_s = 0;   ///< The host's clock; stillness is measured with it. What runs backwards counts as standing.
     bool fresh = false;  ///< Every map is drawn anew from everything in its volume: what each mode must come to.
   };
-  /// Plans the frame and makes room for it. On error nothing has changed but the room.
+  /// Plans the frame and makes room for it. After an error the next frame draws every map anew. Errors: invalid_argument, out_of_memory.
   Result<void> begin(const gpu::Device&, gpu::Memory&, const scene::GpuScene&, const FrameInputs&,
                      std::vector<gpu::Buffer>& retired);
   void upload(gpu::Uploader&) const;

@@ -116,21 +116,6 @@ UMB_FN float depth_of_key_perspective(float near_m, uint key) { return near_m / 
 /// Largest step between neighbouring perspective keys at a depth (24 significant bits), whatever the near plane.
 UMB_FN float depth_quantum_perspective(float depth_m) { return depth_m * 1.1920929e-7f; }
 
-/// Quantum of an ortho view's keys: the power of two with which depths of up to max_abs_depth fit 24 bits and a sign,
-/// the precision of the float depths that go in.
-UMB_FN float ortho_depth_quantum(float max_abs_depth) {
-  float power = uintBitsToFloat((floatBitsToUint(max(max_abs_depth, 1e-6f)) + 0x7fffffu) & 0x7f800000u);
-  return power * 5.9604645e-8f;
-}
-
-/// Absolute depth in whole quanta below 2^30, so that depth 0 has room on both sides; never 0.
-UMB_FN uint depth_key_ortho(float depth_m, float quantum_m) {
-  float steps = roundEven(clamp(depth_m / quantum_m, -1073741760.0f, 1073741760.0f));
-  return uint(0x40000000 - int(steps));
-}
-
-UMB_FN float depth_of_key_ortho(uint key, float quantum_m) { return float(0x40000000 - int(key)) * quantum_m; }
-
 /// Axis depth at which a direction (axis component 1: face_direction, or (s, t, 1) of a spot in its own frame) meets
 /// the receiver's tangent plane: n.p / n.d. Where it meets the plane beyond four times the receiver's depth or not at
 /// all (past the plane's horizon) there is nothing to compare with, and its own depth along the direction is taken.

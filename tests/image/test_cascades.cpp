@@ -31,6 +31,20 @@ TEST(Cascades, EveryPresetShowsThePictureOfARedraw) {
   EXPECT_EQ(pictures["redraw"], pictures["scrolled"]);
 }
 
+TEST(Cascades, AreRightAgainstTheRayTracer) {
+  for (const char* preset : {"cascades-scrolled", "cascades-guard-band"}) {
+    const Outcome outcome =
+        run_program({"compare", "builtin:houses-lod", "--no-scene-lights", "--lights", data_file("sun.json"), "--size",
+                     "480x270", "--preset", preset});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json report = parse_json(outcome.out);
+    EXPECT_GT(report["pairs"]["evaluated"], 10000);
+    EXPECT_LT(report["pairs"]["false_lit"], report["pairs"]["evaluated"]);
+    EXPECT_LE(report["wrong_outside_texel_band"], 0.005) << preset;
+    EXPECT_LE(report["leak"], 1e-3) << preset;
+  }
+}
+
 TEST(Cascades, AreShownAndRefusedWithoutAPresetThatHasThem) {
   const TemporaryFolder folder;
   const std::string sun = folder.write("sun.json", kSun).string(), picture = folder.file("a.png").string();
@@ -45,7 +59,7 @@ TEST(Cascades, AreShownAndRefusedWithoutAPresetThatHasThem) {
   EXPECT_NE(refused.err.find("cascades-scrolled"), std::string::npos) << refused.err;
 }
 
-// Measures, so it is apart: not beside other tests.
+// Measures, so it is apart, in a program run of its own.
 TEST(CascadeBenchLongScene, QuickShowsWhatThePaperClaims) {
   const TemporaryFolder folder;
   const Outcome outcome = run_program({"bench", "cascades", "--quick", "-o", folder.file("results").string()});

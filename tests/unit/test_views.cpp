@@ -225,20 +225,6 @@ TEST(DepthKeys, PerspectiveIsWhatTheDepthBufferHolds) {
   EXPECT_EQ(depth_key_perspective(near_m, 0.01f), floatBitsToUint(1.0f));
 }
 
-TEST(DepthKeys, OrthoIsAbsoluteAndExactToHalfAQuantum) {
-  const float quantum = ortho_depth_quantum(700);
-  EXPECT_EQ(quantum, 1024 / 16777216.0f);
-  uint previous = std::numeric_limits<uint>::max();
-  for (float depth = -700; depth <= 700; depth += 0.37f) {
-    const uint key = depth_key_ortho(depth, quantum);
-    ASSERT_LT(key, previous);
-    previous = key;
-    ASSERT_NEAR(depth_of_key_ortho(key, quantum), depth, 0.5f * quantum);
-  }
-  for (const float depth : {-1e30f, 1e30f}) EXPECT_GT(depth_key_ortho(depth, quantum), 0u);
-  EXPECT_GT(depth_key_ortho(-1e30f, quantum), depth_key_ortho(1e30f, quantum));
-}
-
 TEST(BiasPieces, TexelsGrowWithDepth) {
   EXPECT_FLOAT_EQ(texel_size_m(10, 1, 1000), 0.02f);
   EXPECT_FLOAT_EQ(texel_size_m(10, 0.5f, 1000), 0.01f);
