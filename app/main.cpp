@@ -45,7 +45,7 @@ int run(int argc, char** argv, app::Outputs& outputs) {
   CLI::App* bench = program.add_subcommand("bench", "Measure; writes results, figures and a report");
   app::add_bench_options(*bench, bench_options);
   app::LayeredOptions layered_options;
-  CLI::App* layered = program.add_subcommand("layered", "Many views in one pass: cube maps, cascades, reflections, …");
+  CLI::App* layered = program.add_subcommand("layered", "Many views of a scene: cube maps, cascades, reflections, …");
   app::add_layered_options(*layered, layered_options);
   app::InfoOptions info_options;
   CLI::App* info = program.add_subcommand("info", "Devices, what each can do and which presets it can run");
