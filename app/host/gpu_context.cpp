@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace app {
 
@@ -61,6 +64,16 @@ umbrage::HeadlessDesc headless_desc(const std::string& device, bool validate) {
   return desc;
 }
 
+/// Drivers that draw on the CPU take the lists of a pass's triangles from the heap and free them after it, tens of
+/// megabytes in every frame. Given back to the kernel, their pages would be faulted in anew each time.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kWholeHeap = std::numeric_limits<int>::max(), kLargestBlock = 32 << 20;  // bytes; glibc takes no more
+  mallopt(M_TRIM_THRESHOLD, kWholeHeap);
+  mallopt(M_MMAP_THRESHOLD, kLargestBlock);
+#endif
+}
+
 }  // namespace
 
 Error vulkan_error(const char* call, VkResult result) {
@@ -107,6 +120,7 @@ Result<std::unique_ptr<GpuContext>> GpuContext::create(const std::string& device
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(context->physical_device(), &properties);
   context->limits_ = properties.limits;
+  if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) keep_freed_memory();
   if (auto made = context->create_allocator(); !made) return made.error();
   if (auto made = context->create_queue_objects(); !made) return made.error();
   return context;
