@@ -47,6 +47,7 @@ Result<DrawList> DrawList::create(const GpuContext& context, const Scene& scene,
     entry.primitive = items[i].primitive;
     entry.index_count = primitive.index_count;
     entry.first_index = primitive.first_index;
+    entry.reads = primitive.reads;
     entry.alpha = material.alpha_mode;
     entry.double_sided = material.double_sided;
     entry.mirrored = is_mirrored(pose.instances[items[i].instance].world_from_mesh);
@@ -97,8 +98,8 @@ void DrawList::append(uint32_t place) {
   }
   const bool masked = entry.alpha == AlphaMode::mask;
   if (ranges_.empty() || ranges_.back().masked != masked || ranges_.back().double_sided != entry.double_sided ||
-      ranges_.back().mirrored != entry.mirrored)
-    ranges_.push_back({masked, entry.double_sided, entry.mirrored, place, 0, 0, 0});
+      ranges_.back().mirrored != entry.mirrored || ranges_.back().reads != entry.reads)
+    ranges_.push_back({masked, entry.double_sided, entry.mirrored, entry.reads, place, 0, 0, 0});
   ++ranges_.back().instance_count;
 }
 

@@ -10,6 +10,7 @@ namespace app {
 /// Draws that share pipeline and fixed state.
 struct DrawRange {
   bool masked = false, double_sided = false, mirrored = false;
+  uint32_t reads = 0;  ///< ReadsBaseColorTexture …
   uint32_t first_instance = 0, instance_count = 0;
   uint32_t first_command = 0, command_count = 0;  ///< Of those in view.
 };
@@ -39,13 +40,15 @@ class DrawList {
 
  private:
   struct Entry {
-    uint32_t item = 0, primitive = 0, index_count = 0, first_index = 0;
+    uint32_t item = 0, primitive = 0, index_count = 0, first_index = 0, reads = 0;
     AlphaMode alpha = AlphaMode::opaque;
     bool double_sided = false, mirrored = false, moving = false;
     bool unbounded = false;  ///< Deformed: its box is not known.
     glm::vec3 mesh_center{0}, mesh_half_size{0};
     glm::vec3 center{0}, half_size{0};  ///< World.
-    auto order() const { return std::tuple(alpha == AlphaMode::blend, alpha, double_sided, mirrored, primitive, item); }
+    auto order() const {
+      return std::tuple(alpha == AlphaMode::blend, alpha, double_sided, mirrored, reads, primitive, item);
+    }
   };
   void build(const Pose&, std::span<const SceneItem>);
   void append(uint32_t place);

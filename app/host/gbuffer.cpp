@@ -1,6 +1,8 @@
 // Records the G-buffer pass.
 #include "host/gbuffer.hpp"
 
+#include <algorithm>
+
 namespace app {
 
 using umbrage::Result;
@@ -16,24 +18,32 @@ constexpr uint32_t write_gbuffer[] =
 
 Spirv transform_vertices_spirv() { return transform_vertices; }
 
-Result<GBufferPass> GBufferPass::create(const GpuContext& context, VkPipelineLayout layout, const Targets& targets) {
+Result<GBufferPass> GBufferPass::create(const GpuContext& context, VkPipelineLayout layout, const Targets& targets,
+                                        const DrawList& draws) {
   std::array<VkFormat, gbuffer_targets.size()> formats;
   for (size_t i = 0; i < formats.size(); ++i) formats[i] = targets[gbuffer_targets[i]].format();
   GBufferPass pass;
-  GraphicsPipelineDesc desc;
-  desc.name = "G-buffer";
-  desc.vertex = transform_vertices;
-  desc.fragment = write_gbuffer;
-  desc.color_formats = formats;
-  auto opaque = create_graphics_pipeline(context, layout, desc);
-  if (!opaque) return opaque.error();
-  pass.opaque_ = std::move(opaque).value();
-  desc.name = "G-buffer, masked";
-  desc.masked = VK_TRUE;
-  auto masked = create_graphics_pipeline(context, layout, desc);
-  if (!masked) return masked.error();
-  pass.masked_ = std::move(masked).value();
+  for (const DrawRange& range : draws.ranges()) {
+    if (pass.find(range) != nullptr) continue;
+    GraphicsPipelineDesc desc;
+    desc.name = range.masked ? "G-buffer, masked" : "G-buffer";
+    desc.vertex = transform_vertices;
+    desc.fragment = write_gbuffer;
+    desc.color_formats = formats;
+    desc.masked = range.masked ? VK_TRUE : VK_FALSE;
+    desc.reads = range.reads;
+    auto pipeline = create_graphics_pipeline(context, layout, desc);
+    if (!pipeline) return pipeline.error();
+    pass.variants_.push_back({range.masked, range.reads, std::move(pipeline).value()});
+  }
   return pass;
+}
+
+const GBufferPass::Variant* GBufferPass::find(const DrawRange& range) const {
+  const auto found = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
+    return variant.masked == range.masked && variant.reads == range.reads;
+  });
+  return found == variants_.end() ? nullptr : &*found;
 }
 
 void set_sides(const PassContext& pass, VkCullModeFlags cull, bool mirrored) {
@@ -66,7 +76,7 @@ void GBufferPass::record(PassContext& pass, const DrawList& draws, VkBuffer indi
   push_constants(pass.gpu, pass.commands, pass.layout, pass.push);
   vk.vkCmdBindIndexBuffer(pass.commands, indices, 0, VK_INDEX_TYPE_UINT32);
   for (const DrawRange& range : draws.ranges()) {
-    vk.vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, (range.masked ? masked_ : opaque_).get());
+    vk.vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, find(range)->pipeline.get());
     set_sides(pass, range.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT, range.mirrored);
     vk.vkCmdDrawIndexedIndirect(pass.commands, draws.commands(),
                                 range.first_command * sizeof(VkDrawIndexedIndirectCommand), range.command_count,

@@ -1,5 +1,7 @@
 // The G-buffer pass: depth, normals and materials of opaque and masked surfaces.
 #pragma once
+#include <vector>
+
 #include "host/draw_list.hpp"
 #include "host/pipelines.hpp"
 #include "host/targets.hpp"
@@ -17,12 +19,19 @@ struct PassContext {
 
 class GBufferPass {
  public:
-  static umbrage::Result<GBufferPass> create(const GpuContext&, VkPipelineLayout, const Targets&);
+  static umbrage::Result<GBufferPass> create(const GpuContext&, VkPipelineLayout, const Targets&, const DrawList&);
   /// Afterwards depth is depth_read and the others are sampled: visible to compute shaders.
   void record(PassContext&, const DrawList&, VkBuffer indices) const;
 
  private:
-  Handle<VkPipeline> opaque_, masked_;
+  /// For the ranges that are alike in these.
+  struct Variant {
+    bool masked = false;
+    uint32_t reads = 0;
+    Handle<VkPipeline> pipeline;
+  };
+  const Variant* find(const DrawRange&) const;
+  std::vector<Variant> variants_;
 };
 
 /// The vertex stage of every surface.

@@ -20,14 +20,14 @@ Result<Handle<VkShaderModule>> create_module(const GpuContext& context, Spirv wo
   return Handle<VkShaderModule>(context.device(), module, context.vk.vkDestroyShaderModule);
 }
 
-/// Specialization constants 0 and 1; shaders without them do not mind.
+/// Specialization constants 0, 1 and 2; shaders without them do not mind.
 struct Constants {
-  Constants(VkBool32 masked, uint32_t shadow_store) : values{masked, shadow_store} {}
+  Constants(VkBool32 masked, uint32_t shadow_store, uint32_t reads) : values{masked, shadow_store, reads} {}
   Constants(const Constants&) = delete;
-  const uint32_t values[2];
-  static constexpr VkSpecializationMapEntry entries[] = {{0, 0, sizeof(uint32_t)},
-                                                         {1, sizeof(uint32_t), sizeof(uint32_t)}};
-  const VkSpecializationInfo info{2, entries, sizeof(values), values};
+  const uint32_t values[3];
+  static constexpr VkSpecializationMapEntry entries[] = {
+      {0, 0, sizeof(uint32_t)}, {1, sizeof(uint32_t), sizeof(uint32_t)}, {2, 2 * sizeof(uint32_t), sizeof(uint32_t)}};
+  const VkSpecializationInfo info{3, entries, sizeof(values), values};
 };
 
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
@@ -112,7 +112,7 @@ Result<Handle<VkPipeline>> create_compute_pipeline(const GpuContext& context, Vk
   if (!module) return module.error();
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module->get());
-  const Constants constants(VK_FALSE, context.shadow_store);
+  const Constants constants(VK_FALSE, context.shadow_store, 0);
   info.stage.pSpecializationInfo = &constants.info;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
@@ -130,8 +130,8 @@ Result<Handle<VkPipeline>> create_graphics_pipeline(const GpuContext& context, V
   if (!fragment) return fragment.error();
   VkPipelineShaderStageCreateInfo stages[] = {stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex->get()),
                                               stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment->get())};
-  const Constants constants(desc.masked, context.shadow_store);
-  stages[1].pSpecializationInfo = &constants.info;
+  const Constants constants(desc.masked, context.shadow_store, desc.reads);
+  for (VkPipelineShaderStageCreateInfo& stage : stages) stage.pSpecializationInfo = &constants.info;
 
   const FixedState state = fixed_state(desc);
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(),

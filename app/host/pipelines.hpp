@@ -25,6 +25,7 @@ struct GraphicsPipelineDesc {
   Blend blend = Blend::none;
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   VkBool32 masked = VK_FALSE;  ///< Specialization constant 0 of the fragment shader.
+  uint32_t reads = 0;          ///< Constant 2 of both: what the surface reads.
 };
 umbrage::Result<Handle<VkPipeline>> create_graphics_pipeline(const GpuContext&, VkPipelineLayout,
                                                              const GraphicsPipelineDesc&);

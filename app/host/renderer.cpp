@@ -146,7 +146,7 @@ Result<void> Renderer::State::create_reflection(const RendererDesc& desc, const 
 
 Result<void> Renderer::State::create_passes(uint32_t max_lights) {
   if (auto made = take(GpuTimers::create(*gpu), timers); !made) return made;
-  if (auto made = take(GBufferPass::create(*gpu, layout.get(), targets), gbuffer); !made) return made;
+  if (auto made = take(GBufferPass::create(*gpu, layout.get(), targets, draws), gbuffer); !made) return made;
   if (auto made = take(ShadePass::create(*gpu, layout.get(), targets), shade); !made) return made;
   if (auto made = take(PostPass::create(*gpu, layout.get()), post); !made) return made;
   if (auto made = take(ShowPass::create(*gpu, layout.get(), targets, max_lights), show); !made) return made;

@@ -66,6 +66,16 @@ void measure(const Primitive& primitive, UploadedPrimitive& uploaded) {
   }
 }
 
+uint32_t reads_of(const Primitive& primitive, const Material& material) {
+  uint32_t reads = 0;
+  if (material.base_color_texture.image >= 0) reads |= gpu::ReadsBaseColorTexture;
+  if (material.metallic_roughness_texture.image >= 0) reads |= gpu::ReadsMetallicRoughnessTexture;
+  if (material.normal_texture.image >= 0) reads |= gpu::ReadsNormalTexture;
+  if (material.emissive_texture.image >= 0) reads |= gpu::ReadsEmissiveTexture;
+  if (!primitive.colors.empty()) reads |= gpu::ReadsVertexColors;
+  return reads;
+}
+
 gpu::GpuTexture gpu_texture(const TextureTable& textures, const Texture& texture, ColorSpace space) {
   return {textures.slot(texture, space), texture.uv_set, texture.uv_transform[0], texture.uv_transform[1],
           texture.uv_transform[2]};
@@ -102,6 +112,7 @@ Result<void> SceneBuffers::upload_streams(GpuContext& context, const Scene& scen
       uploaded.morph_positions = add_targets(arena, primitive, &MorphTarget::positions);
       uploaded.morph_normals = add_targets(arena, primitive, &MorphTarget::normals);
       uploaded.material = primitive.material;
+      uploaded.reads = reads_of(primitive, scene.materials[primitive.material]);
       measure(primitive, uploaded);
       table.push_back({arena.add(primitive.tangents), arena.add(primitive.uv[0]), arena.add(primitive.uv[1]),
                        arena.add(primitive.colors), primitive.material, 0});

@@ -13,6 +13,7 @@ struct UploadedPrimitive {
   VkDeviceAddress joints = 0, joint_weights = 0;           ///< 4 x 16 bit, vec4
   VkDeviceAddress morph_positions = 0, morph_normals = 0;  ///< vec3[target_count][vertex_count]
   uint32_t material = 0;
+  uint32_t reads = 0;               ///< ReadsBaseColorTexture …
   glm::vec3 lowest{0}, highest{0};  ///< Mesh space.
 };
 

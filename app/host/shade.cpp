@@ -30,6 +30,7 @@ Result<ShadePass> ShadePass::create(const GpuContext& context, VkPipelineLayout 
   desc.color_formats = {&format, 1};
   desc.depth = DepthUse::test;
   desc.blend = Blend::premultiplied;
+  desc.reads = gpu::ReadsAll;
   auto blended = create_graphics_pipeline(context, layout, desc);
   if (!blended) return blended.error();
   pass.blended_ = std::move(blended).value();

@@ -30,6 +30,15 @@ struct GpuTexture {
 
 const uint MaterialUnlit = 1u;
 
+// What a surface reads besides positions, normals and factors. Shaders of surfaces that read less leave the rest out.
+const uint ReadsBaseColorTexture = 1u;
+const uint ReadsMetallicRoughnessTexture = 2u;
+const uint ReadsNormalTexture = 4u;
+const uint ReadsEmissiveTexture = 8u;
+const uint ReadsVertexColors = 16u;
+const uint ReadsTextures = 15u;
+const uint ReadsAll = 31u;
+
 struct GpuMaterial {
   vec4 base_color;
   vec3 emissive;

@@ -1,5 +1,6 @@
 // glTF metallic-roughness materials, evaluated in fragment shaders of the G-buffer and of blended surfaces.
 #extension GL_EXT_nonuniform_qualifier : require
+layout(constant_id = 2) const uint reads = ReadsAll;
 layout(set = SetTextures, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) in vec3 offset_ws;  // From the eye.
@@ -25,8 +26,11 @@ vec2 texture_uv(GpuTexture use) {
   return use.u_axis * uv.x + use.v_axis * uv.y + use.offset;
 }
 
-vec4 sampled(GpuTexture use, vec4 without) {
-  return use.slot == NoTexture ? without : texture(textures[nonuniformEXT(use.slot)], texture_uv(use));
+/// kind: its bit in `reads`.
+bool has_texture(GpuTexture use, uint kind) { return (reads & kind) != 0u && use.slot != NoTexture; }
+
+vec4 sampled(GpuTexture use, uint kind, vec4 without) {
+  return has_texture(use, kind) ? texture(textures[nonuniformEXT(use.slot)], texture_uv(use)) : without;
 }
 
 /// Of the flat triangle, towards the eye.
@@ -39,7 +43,7 @@ vec3 flat_normal(Frame frame) {
 
 /// World direction of a normal map's texel. uv runs down the image while the map's y runs up: hence -dp/dv.
 vec3 mapped_normal(GpuMaterial material, vec3 normal) {
-  vec3 texel = sampled(material.normal_texture, vec4(0.5, 0.5, 1.0, 0.0)).xyz * 2.0 - 1.0;
+  vec3 texel = sampled(material.normal_texture, ReadsNormalTexture, vec4(0.5, 0.5, 1.0, 0.0)).xyz * 2.0 - 1.0;
   texel.xy *= material.normal_scale;
   vec3 tangent, bitangent;
   if (tangent_ws.w != 0.0) {
@@ -72,16 +76,17 @@ Surface evaluate_material(Frame frame, GpuMaterial material, vec4 base_color) {
   s.to_eye = to_eye(frame, offset_ws);
   vec3 normal = dot(normal_ws, normal_ws) > 1e-20 ? normalize(normal_ws) : s.geometric_normal;
   if (!gl_FrontFacing) normal = -normal;
-  s.normal = material.normal_texture.slot == NoTexture ? normal : mapped_normal(material, normal);
+  s.normal = has_texture(material.normal_texture, ReadsNormalTexture) ? mapped_normal(material, normal) : normal;
   s.base_color = base_color;
-  vec4 metal_rough = sampled(material.metallic_roughness_texture, vec4(1.0));
+  vec4 metal_rough = sampled(material.metallic_roughness_texture, ReadsMetallicRoughnessTexture, vec4(1.0));
   s.metallic = clamp(material.metallic * metal_rough.b, 0.0, 1.0);
   s.roughness = clamp(material.roughness * metal_rough.g, 0.0, 1.0);
-  s.emissive = material.emissive * sampled(material.emissive_texture, vec4(1.0)).rgb;
+  s.emissive = material.emissive * sampled(material.emissive_texture, ReadsEmissiveTexture, vec4(1.0)).rgb;
   s.unlit = (material.flags & MaterialUnlit) != 0u;
   return s;
 }
 
 vec4 base_color_of(GpuMaterial material) {
-  return material.base_color * color * sampled(material.base_color_texture, vec4(1.0));
+  vec4 base_color = material.base_color * sampled(material.base_color_texture, ReadsBaseColorTexture, vec4(1.0));
+  return (reads & ReadsVertexColors) != 0u ? base_color * color : base_color;
 }

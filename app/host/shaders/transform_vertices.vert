@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
 
+layout(constant_id = 2) const uint reads = ReadsAll;
 layout(push_constant, scalar) uniform Push { FramePush push; };
 
 layout(location = 0) out vec3 offset_ws;
@@ -33,14 +34,15 @@ void main() {
   normal_ws = size > 0.0 ? normal_ws / size : vec3(0.0);
 
   tangent_ws = vec4(0.0);
-  if (primitive.tangents != 0ul && instance.deformed == 0u) {
+  if ((reads & ReadsNormalTexture) != 0u && primitive.tangents != 0ul && instance.deformed == 0u) {
     vec4 tangent = Vec4s(primitive.tangents).at[gl_VertexIndex];
     vec3 moved = vec3(dot(x.xyz, tangent.xyz), dot(y.xyz, tangent.xyz), dot(z.xyz, tangent.xyz));
     tangent_ws = vec4(moved / max(length(moved), 1e-30), tangent.w * mirror);
   }
   uv_sets = vec4(0.0);
-  if (primitive.uv_0 != 0ul) uv_sets.xy = Vec2s(primitive.uv_0).at[gl_VertexIndex];
-  if (primitive.uv_1 != 0ul) uv_sets.zw = Vec2s(primitive.uv_1).at[gl_VertexIndex];
-  color = primitive.colors != 0ul ? Vec4s(primitive.colors).at[gl_VertexIndex] : vec4(1.0);
+  if ((reads & ReadsTextures) != 0u && primitive.uv_0 != 0ul) uv_sets.xy = Vec2s(primitive.uv_0).at[gl_VertexIndex];
+  if ((reads & ReadsTextures) != 0u && primitive.uv_1 != 0ul) uv_sets.zw = Vec2s(primitive.uv_1).at[gl_VertexIndex];
+  color = vec4(1.0);
+  if ((reads & ReadsVertexColors) != 0u && primitive.colors != 0ul) color = Vec4s(primitive.colors).at[gl_VertexIndex];
   material_index = primitive.material;
 }
