@@ -30,14 +30,10 @@ VkFormat normal_format(const GpuContext& context) {
 }
 
 std::array<TargetInfo, target_count> target_infos(const GpuContext& context) {
-  const VkFormat normal = normal_format(context);
   return {{
       {"depth", depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
-      {"geometric normal", normal, drawn_and_sampled},
-      {"normal", normal, drawn_and_sampled},
-      {"base color", VK_FORMAT_R8G8B8A8_SRGB, drawn_and_sampled},
-      {"metallic roughness", VK_FORMAT_R8G8_UNORM, drawn_and_sampled},
-      {"emissive", VK_FORMAT_R16G16B16A16_SFLOAT, drawn_and_sampled},
+      {"geometric normal", normal_format(context), drawn_and_sampled},
+      {"surface", VK_FORMAT_R32G32B32A32_UINT, drawn_and_sampled},
       {"color", VK_FORMAT_R32G32B32A32_SFLOAT, stored_and_drawn},
       {"picture", VK_FORMAT_R8G8B8A8_UNORM, stored_and_drawn},
   }};

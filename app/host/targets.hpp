@@ -8,8 +8,8 @@
 namespace app {
 
 /// In the order of shaders/targets.glsl.
-enum class Target : uint8_t { depth, geometric_normal, normal, base_color, metal_rough, emissive, color, picture };
-constexpr size_t target_count = 8;
+enum class Target : uint8_t { depth, geometric_normal, surface, color, picture };
+constexpr size_t target_count = 5;
 
 class Targets {
  public:
@@ -32,8 +32,7 @@ class Targets {
 };
 
 /// What the G-buffer pass draws into, in the order of write_gbuffer.frag's outputs.
-inline constexpr std::array gbuffer_targets{Target::geometric_normal, Target::normal, Target::base_color,
-                                            Target::metal_rough, Target::emissive};
+inline constexpr std::array gbuffer_targets{Target::geometric_normal, Target::surface};
 
 VkRenderingAttachmentInfo attachment(const DeviceImage&, ImageUse, VkAttachmentLoadOp, VkAttachmentStoreOp);
 /// Viewport and scissor of the whole picture, no culling.

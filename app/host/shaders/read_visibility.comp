@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
 #include "targets.glsl"
+#include "packed_surface.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FramePush push; };
 
@@ -32,7 +33,7 @@ Receiver receiver_at(Frame frame, uint index) {
   r.pixel = vec2(pixel) + 0.5;
   r.position_ws = frame.data.eye_ws + offset_from_depth(frame, r.pixel, r.depth);
   r.geometric_normal = from_octahedral(texelFetch(geometric_normal_target, pixel, 0).xy);
-  r.normal = from_octahedral(texelFetch(normal_target, pixel, 0).xy);
+  r.normal = unpack_normal(texelFetch(surface_target, pixel, 0));
   return r;
 }
 

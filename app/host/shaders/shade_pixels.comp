@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"
 #include "targets.glsl"
+#include "packed_surface.glsl"
 #define UMBRAGE_COUNT_TAPS
 #include "lighting.glsl"
 
@@ -12,7 +13,7 @@ layout(push_constant, scalar) uniform Push { FramePush push; };
 shared uint group_lights;
 shared uint group_most;
 
-layout(set = SetTargets, binding = 8) uniform samplerCube reflection_cube;
+layout(set = SetTargets, binding = 5) uniform samplerCube reflection_cube;
 
 /// Of the mirror ball, looked up by direction: as if all that it shows were far away.
 vec3 shade_mirror(Frame frame, vec3 position_ws, vec3 to_eye, vec3 base_color) {
@@ -23,28 +24,26 @@ vec3 shade_mirror(Frame frame, vec3 position_ws, vec3 to_eye, vec3 base_color) {
 }
 
 /// Close to the ball's surface, and as smooth as nothing else is.
-bool is_mirror(Frame frame, vec3 position_ws, vec2 metal_rough) {
+bool is_mirror(Frame frame, vec3 position_ws, PackedSurface surface) {
   vec4 ball = frame.data.mirror_ball;
-  return distance(position_ws, ball.xyz) < 1.01 * ball.w && metal_rough.x == 1.0 && metal_rough.y == 0.0;
+  return distance(position_ws, ball.xyz) < 1.01 * ball.w && surface.metallic == 1.0 && surface.roughness == 0.0;
 }
 
 vec3 shade_pixel(Frame frame, ivec2 pixel, float depth, out uint lights) {
-  vec4 base_color = texelFetch(base_color_target, pixel, 0);
-  vec3 emissive = texelFetch(emissive_target, pixel, 0).rgb;
+  PackedSurface surface = unpack_surface(texelFetch(surface_target, pixel, 0));
   UmbrageFrame shadows = umbrage_frame(frame.data.umbrage);
   UmbrageCluster cluster = umbrage_cluster(shadows, vec2(pixel) + 0.5, depth);
   lights = cluster.count;
-  if (base_color.a == 0.0) return emissive;
+  if (surface.unlit) return surface.emissive;
 
   vec3 offset = offset_from_depth(frame, vec2(pixel) + 0.5, depth);
   vec3 eye = to_eye(frame, offset);
   vec3 geometric_normal = from_octahedral(texelFetch(geometric_normal_target, pixel, 0).xy);
-  vec3 normal = from_octahedral(texelFetch(normal_target, pixel, 0).xy);
-  vec2 metal_rough = texelFetch(metal_rough_target, pixel, 0).xy;
-  if (is_mirror(frame, frame.data.eye_ws + offset, metal_rough))
-    return shade_mirror(frame, frame.data.eye_ws + offset, eye, base_color.rgb);
-  Brdf brdf = make_brdf(base_color.rgb, metal_rough.x, metal_rough.y, normal, eye);
-  return emissive + shade(frame, shadows, cluster, frame.data.eye_ws + offset, geometric_normal, normal, eye, brdf);
+  if (is_mirror(frame, frame.data.eye_ws + offset, surface))
+    return shade_mirror(frame, frame.data.eye_ws + offset, eye, surface.base_color);
+  Brdf brdf = make_brdf(surface.base_color, surface.metallic, surface.roughness, surface.normal, eye);
+  return surface.emissive +
+         shade(frame, shadows, cluster, frame.data.eye_ws + offset, geometric_normal, surface.normal, eye, brdf);
 }
 
 void main() {
