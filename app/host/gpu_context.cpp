@@ -117,10 +117,16 @@ Result<std::unique_ptr<GpuContext>> GpuContext::create(const std::string& device
 
   volkLoadInstanceOnly(context->headless_->desc().instance);
   volkLoadDeviceTable(&context->vk, context->device());
-  VkPhysicalDeviceProperties properties{};
-  vkGetPhysicalDeviceProperties(context->physical_device(), &properties);
-  context->limits_ = properties.limits;
-  if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) keep_freed_memory();
+  VkPhysicalDeviceVulkan11Properties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+  vkGetPhysicalDeviceProperties2(context->physical_device(), &properties);
+  context->limits_ = properties.properties.limits;
+  if ((subgroups.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
+      (subgroups.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) == 0) {
+    return Error{ErrorCode::unsupported,
+                 std::string(properties.properties.deviceName) + " cannot add up within subgroups, which shading does"};
+  }
+  if (properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) keep_freed_memory();
   if (auto made = context->create_allocator(); !made) return made.error();
   if (auto made = context->create_queue_objects(); !made) return made.error();
   return context;

@@ -1,6 +1,7 @@
 // Lights every pixel of the G-buffer; counts how many lights that took.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "host.glsl"
 #include "targets.glsl"
 #include "packed_surface.glsl"
@@ -9,9 +10,6 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { FramePush push; };
-
-shared uint group_lights;
-shared uint group_most;
 
 layout(set = SetTargets, binding = 5) uniform samplerCube reflection_cube;
 
@@ -29,9 +27,8 @@ bool is_mirror(Frame frame, vec3 position_ws, PackedSurface surface) {
   return distance(position_ws, ball.xyz) < 1.01 * ball.w && surface.metallic == 1.0 && surface.roughness == 0.0;
 }
 
-vec3 shade_pixel(Frame frame, ivec2 pixel, float depth, out uint lights) {
+vec3 shade_pixel(Frame frame, UmbrageFrame shadows, ivec2 pixel, float depth, out uint lights) {
   PackedSurface surface = unpack_surface(texelFetch(surface_target, pixel, 0));
-  UmbrageFrame shadows = umbrage_frame(frame.data.umbrage);
   UmbrageCluster cluster = umbrage_cluster(shadows, vec2(pixel) + 0.5, depth);
   lights = cluster.count;
   if (surface.unlit) return surface.emissive;
@@ -46,27 +43,26 @@ vec3 shade_pixel(Frame frame, ivec2 pixel, float depth, out uint lights) {
          shade(frame, shadows, cluster, frame.data.eye_ws + offset, geometric_normal, surface.normal, eye, brdf);
 }
 
+/// Adds up what the picture took: once a subgroup, without a barrier.
+void count_lights(Frame frame, uint lights) {
+  uint sum = subgroupAdd(lights);
+  uint most = subgroupMax(lights);
+  if (!subgroupElect()) return;
+  Counters counters = Counters(frame.data.counters);
+  uint before = atomicAdd(counters.data.lighting_computations_low, sum);
+  if (before + sum < before) atomicAdd(counters.data.lighting_computations_high, 1u);
+  atomicMax(counters.data.most_lights_of_a_pixel, most);
+}
+
 void main() {
   Frame frame = Frame(push.frame);
+  UmbrageFrame shadows = umbrage_frame(frame.data.umbrage);
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (gl_LocalInvocationIndex == 0u) {
-    group_lights = 0u;
-    group_most = 0u;
-  }
-  barrier();
-  if (pixel.x < int(frame.data.width) && pixel.y < int(frame.data.height)) {
-    float depth = texelFetch(depth_target, pixel, 0).x;
-    uint lights = 0u;
-    vec4 color = vec4(0.0);
-    if (depth > 0.0) color = vec4(shade_pixel(frame, pixel, depth, lights), 1.0);
-    imageStore(color_target, pixel, color);
-    atomicAdd(group_lights, lights);
-    atomicMax(group_most, lights);
-  }
-  barrier();
-  if (gl_LocalInvocationIndex != 0u) return;
-  Counters counters = Counters(frame.data.counters);
-  uint before = atomicAdd(counters.data.lighting_computations_low, group_lights);
-  if (before + group_lights < before) atomicAdd(counters.data.lighting_computations_high, 1u);
-  atomicMax(counters.data.most_lights_of_a_pixel, group_most);
+  if (pixel.x >= int(frame.data.width) || pixel.y >= int(frame.data.height)) return;
+  float depth = texelFetch(depth_target, pixel, 0).x;
+  uint lights = 0u;
+  vec4 color = vec4(0.0);
+  if (depth > 0.0) color = vec4(shade_pixel(frame, shadows, pixel, depth, lights), 1.0);
+  imageStore(color_target, pixel, color);
+  count_lights(frame, lights);
 }
