@@ -8,9 +8,8 @@ UMB_CONST float CascadeBiasUnits = 1.5f;
 
 /// First of a light's cascades; NoIndex: it has none.
 UMB_FN uint first_cascade(Frame frame, uint slot) {
-  uint64_t address = UmbrageFrames(frame.address).v[0].cascades;
-  if (address == 0ul) return NoIndex;
-  UmbrageCascadeTables table = UmbrageCascadeTables(address);
+  if (frame.cascades == 0ul) return NoIndex;
+  UmbrageCascadeTables table = UmbrageCascadeTables(frame.cascades);
   for (uint i = 0u; i < table.v[0].cascades; i += table.v[0].count)
     if (table.v[0].records[i].light == slot) return i;
   return NoIndex;
@@ -39,7 +38,8 @@ UMB_FN float visibility_cascade(UmbrageCascadeTables table, uint index, vec3 pos
   vec2 gain = vec2(dot(normal, cascade.x_row), dot(normal, cascade.y_row)) * (-cascade.texel_m * units / slope);
   float deepest = TapDepthTexels * units;
   vec2 base = floor(vec2(own.x, own.y));
-  vec2 fraction = vec2(own.x, own.y) - base;
+  vec3 columns = tap_weights(own.x - base.x);
+  vec3 rows = tap_weights(own.y - base.y);
   uint which = state.shows_work != 0u ? 2u : state.front;
   uint first = which * table.v[0].texels + cascade.first_texel;
   UmbrageUints words = UmbrageUints(table.v[0].maps);
@@ -49,7 +49,7 @@ UMB_FN float visibility_cascade(UmbrageCascadeTables table, uint index, vec3 pos
       vec2 texel = base + vec2(x, y);
       float depth = plane.z + min(dot(gain, texel + 0.5f - vec2(plane.x, plane.y)), deepest) - CascadeBiasUnits;
       uint stored = words.v[first + uint(round_to_int(texel.y)) * cascade.side + uint(round_to_int(texel.x))];
-      sum += float(stored) >= depth ? tap_weight(fraction, x, y) : 0.0f;
+      sum += float(stored) >= depth ? columns[x + 1] * rows[y + 1] : 0.0f;
     }
   }
   return sum * 0.25f;
@@ -74,7 +74,7 @@ UMB_FN float camera_depth(Frame frame, vec3 position_ws) {
 
 /// first: first_cascade of the light. Towards its far end a cascade fades into the next, the last one into light.
 UMB_FN float visibility_cascades(Frame frame, uint first, vec3 position_ws, vec3 normal) {
-  UmbrageCascadeTables table = UmbrageCascadeTables(UmbrageFrames(frame.address).v[0].cascades);
+  UmbrageCascadeTables table = UmbrageCascadeTables(frame.cascades);
   float t = camera_depth(frame, position_ws);
   uint index = cascade_at(table, first, t, position_ws);
   if (index == NoIndex) return 1.0f;

@@ -26,21 +26,28 @@ struct Map {
   float depth_step;  // FrameRecord::depth_step
 };
 
-/// The map with which a light's visibility is looked up, where there is none: resolution 0.
+/// A light's map. NoIndex, there is none: resolution 0. (Record 0 is there in any case: no branch.)
 UMB_FN Map map_of_record(Frame frame, uint index, float near_m) {
-  if (index == NoIndex) return Map(0u, 0u, near_m, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0f);
-  MapRecord record = UmbrageMapList(UmbrageFrames(frame.address).v[0].maps).v[index];
-  return Map(record.first_view, record.resolution, near_m, record.pages, record.words, record.first_word, record.whole, record.image,
-             record.layer, record.faces, UmbrageFrames(frame.address).v[0].depth_step);
+  UmbrageMapList maps = UmbrageMapList(frame.maps);
+  uint at = index == NoIndex ? 0u : index;
+  uint resolution = index == NoIndex ? 0u : maps.v[at].resolution;
+  uint pages = store_of(frame) == StoreImages ? 0u : pages_of(resolution);
+  return Map(maps.v[at].first_view, resolution, near_m, pages, page_words_of(pages), maps.v[at].first_word, maps.v[at].whole,
+             maps.v[at].image, maps.v[at].layer, maps.v[at].faces, frame.depth_step);
 }
 
 UMB_FN uint whole_map(Frame frame, uint slot) { return UmbrageLightMapList(UmbrageFrames(frame.address).v[0].light_maps).v[slot].whole; }
 
-/// A pair has a map of its own unless it faces away; points that no depth buffer saw have the light's whole map.
-UMB_FN Map map_of_pair(Frame frame, Cluster cluster, uint i, uint slot) {
-  UmbrageFrames f = UmbrageFrames(frame.address);
-  LightRecord light = UmbrageLights(f.v[0].lights).v[slot];
+/// A pair has a map of its own unless it faces away; points that no depth buffer saw have the light's whole map: NoIndex.
+UMB_FN uint pair_map(Frame frame, Cluster cluster, uint i) {
+  if (store_of(frame) == StoreAtlas || cluster.is_sample == 0u) return NoIndex;
+  return UmbrageUints(frame.pair_maps).v[cluster.first + i];
+}
+
+/// The map with which a light's visibility is looked up.
+UMB_FN Map map_of_light(Frame frame, Light light) {
   if (store_of(frame) == StoreAtlas) return Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0f);
-  uint index = cluster.is_sample == 0u ? NoIndex : UmbrageUints(f.v[0].pair_maps).v[cluster.first + i];
-  return map_of_record(frame, index == NoIndex ? whole_map(frame, slot) : index, light.near_m);
+  uint index = light.map;
+  if (index == NoIndex) index = whole_map(frame, light.index);
+  return map_of_record(frame, index, light.near_m);
 }

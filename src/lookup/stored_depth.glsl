@@ -4,37 +4,40 @@
 #define UMBRAGE_VISIT_TEXEL(texel)   // a texel of the pool that a tap reads, for hosts that count them
 #endif
 
-/// Where the last tap was found: neighbours mostly share its page.
-struct TapPage {
-  uint key;          // view and page
-  uint first;        // as find_page() says
-  uint missing;      // taps without a page
-};
-
 /// First texel in the pool of a view's page, where there is one (else 0); NoIndex for a page that nobody marked.
 UMB_FN uint find_page(Frame frame, Map map, uint view, uint page) {
-  UmbrageFrames f = UmbrageFrames(frame.address);
   uint word = map.first_word + view * map.words + page / 32u;
-  uint bits = UmbrageUints(f.v[0].page_bits).v[word];
+  uint bits = UmbrageUints(frame.page_bits).v[word];
   uint bit = page % 32u;
-  if ((bits & (1u << bit)) == 0u) return NoIndex;
-  if (store_of(frame) != StorePool) return 0u;
-  return page_texel(bits, UmbrageUints(f.v[0].page_first).v[word], bit, map.resolution);
+  uint first = 0u;
+  if (store_of(frame) == StorePool) first = page_texel(bits, UmbrageUints(frame.page_first).v[word], bit, map.resolution);
+  return (bits >> bit & 1u) != 0u ? first : NoIndex;
 }
 
-/// A texel of a page that is there. first: as find_page() says.
+/// A texel of a page, 0 where there is none. first: as find_page() says.
 UMB_FN float texel_of_page(Frame frame, Map map, uint view, uvec2 texel, uint first) {
+  float depth = 0.0f;
+  if (store_of(frame) == StorePool) {
+    uint place = first == NoIndex ? 0u : first + texel_in_page(texel, map.resolution);   // no branch: the pool has a first texel
+    if (first != NoIndex) { UMBRAGE_VISIT_TEXEL(place); }
+    float read = uintBitsToFloat(UmbrageUints(frame.pool).v[place]);
+    depth = first == NoIndex ? 0.0f : read;
+  }
 #ifdef UMBRAGE_SET
-  ivec3 at = ivec3(texel, map.layer + view);
-  if (store_of(frame) == StoreSparseWords) return uintBitsToFloat(texelFetch(umbrage_words[nonuniformEXT(map.image)], at, 0).x);
-  if (store_of(frame) == StoreSparseDepth) return texelFetch(umbrage_images[nonuniformEXT(map.image)], at, 0).x;
+  else if (first != NoIndex) {
+    ivec3 at = ivec3(texel, map.layer + view);
+    if (store_of(frame) == StoreSparseWords) {
+      depth = uintBitsToFloat(texelFetch(umbrage_words[nonuniformEXT(map.image)], at, 0).x);
+    } else {
+      depth = texelFetch(umbrage_images[nonuniformEXT(map.image)], at, 0).x;
+    }
+  }
 #endif
-  uint place = first + texel_in_page(texel, map.resolution);
-  UMBRAGE_VISIT_TEXEL(place);
-  return uintBitsToFloat(UmbrageUints(UmbrageFrames(frame.address).v[0].pool).v[place]);
+  return depth;
 }
 
-UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout TapPage last) {
+/// A texel of any store; missing: counts texels without a page.
+UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout uint missing) {
 #ifdef UMBRAGE_SET
   if (store_of(frame) == StoreAtlas) {
     uvec2 tile = atlas_tile(map.first_view + view, UmbrageFrames(frame.address).v[0].atlas_columns, UmbrageFrames(frame.address).v[0].atlas_resolution);
@@ -42,40 +45,51 @@ UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout Ta
   }
   if (store_of(frame) == StoreImages) {
     if ((map.faces >> view & 1u) != 0u) return texelFetch(umbrage_images[nonuniformEXT(map.image)], ivec3(texel, map.layer + view), 0).x;
-    ++last.missing;
+    ++missing;
     return 0.0f;
   }
 #endif
-  uint page = (texel.y / PageSide) * map.pages + texel.x / PageSide;
-  uint key = view << 16u | page;
-  if (key != last.key) {
-    last.key = key;
-    last.first = find_page(frame, map, view, page);
-  }
-  if (last.first == NoIndex) {
-    ++last.missing;
-    return 0.0f;
-  }
-  return texel_of_page(frame, map, view, texel, last.first);
+  uint first = find_page(frame, map, view, (texel.y / PageSide) * map.pages + texel.x / PageSide);
+  missing += first == NoIndex ? 1u : 0u;
+  return texel_of_page(frame, map, view, texel, first);
 }
 
-/// The pages of 3×3 texels: one, or two side by side, or four.
-struct TapPages {
-  uvec4 first;       // in the pool; left and right above, then below; NoIndex: not there
-  uvec2 split;       // texels from here on lie in the right or the lower pages
+/// 3×3 texels of a view: neighbours, but that at the view's border two may be the same.
+struct Nine {
+  uvec3 columns;
+  uvec3 rows;
 };
 
-UMB_FN TapPages pages_around(Frame frame, Map map, uint view, uvec2 middle) {
-  uvec2 begin = (middle - 1u) / PageSide;
-  uvec2 end = (middle + 1u) / PageSide;
+/// Their depths, row by row, from at most four pages.
+UMB_FN void nine_of_pages(Frame frame, Map map, uint view, Nine texels, inout uint missing, out vec3 depths[3]) {
+  uvec2 begin = uvec2(texels.columns.x, texels.rows.x) / PageSide;
+  uvec2 end = uvec2(texels.columns.z, texels.rows.z) / PageSide;
   uint page = begin.y * map.pages + begin.x;
-  TapPages around;
-  around.first = uvec4(find_page(frame, map, view, page));
-  around.split = end * PageSide;
-  if (begin.x != end.x) around.first.yw = uvec2(find_page(frame, map, view, page + 1u));
-  if (begin.y != end.y) {
-    around.first.zw = uvec2(find_page(frame, map, view, page + map.pages));
-    if (begin.x != end.x) around.first.w = find_page(frame, map, view, page + map.pages + 1u);
+  uvec4 first = uvec4(find_page(frame, map, view, page));   // left and right above, then below
+  if (any(notEqual(begin, end))) {
+    uint right = end.x - begin.x;
+    uint below = (end.y - begin.y) * map.pages;
+    first.y = find_page(frame, map, view, page + right);
+    first.z = find_page(frame, map, view, page + below);
+    first.w = find_page(frame, map, view, page + below + right);
   }
-  return around;
+  bool middle_is_right = texels.columns.y / PageSide == end.x;
+  for (uint y = 0u; y < 3u; ++y) {
+    uvec2 row = texels.rows[y] / PageSide == end.y ? first.zw : first.xy;
+    uvec3 places = uvec3(row.x, middle_is_right ? row.y : row.x, row.y);
+    for (uint x = 0u; x < 3u; ++x) {
+      depths[y][x] = texel_of_page(frame, map, view, uvec2(texels.columns[x], texels.rows[y]), places[x]);
+      missing += places[x] == NoIndex ? 1u : 0u;
+    }
+  }
+}
+
+UMB_FN void nine_depths(Frame frame, Map map, uint view, Nine texels, inout uint missing, out vec3 depths[3]) {
+  if (store_of(frame) == StoreAtlas || store_of(frame) == StoreImages) {
+    for (uint i = 0u; i < 9u; ++i) {
+      depths[i / 3u][i % 3u] = stored_depth(frame, map, view, uvec2(texels.columns[i % 3u], texels.rows[i / 3u]), missing);
+    }
+  } else {
+    nine_of_pages(frame, map, view, texels, missing, depths);
+  }
 }

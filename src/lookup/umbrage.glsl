@@ -3,11 +3,11 @@
 // it needs one address and no descriptor; for the other stores define UMBRAGE_SET as the set number at which
 // ShadowSystem::descriptor_set_layout() is bound.
 //
-//   Frame frame = umbrage_frame(address);                     // ShaderInterface::frame
+//   Frame frame = umbrage_frame(address);                     // ShaderInterface::frame; once, outside of loops and branches
 //   Cluster cluster = umbrage_cluster(frame, pixel, depth);   // or umbrage_cluster_at(frame, position_ws)
 //   for (uint i = 0u; i < cluster.count; ++i) {
 //     Light light = umbrage_light(frame, cluster, i);         // light.host_index finds colour and intensity
-//     radiance += … * umbrage_visibility(frame, cluster, i, position_ws, geometric_normal_ws);
+//     radiance += … * umbrage_visibility(frame, light, position_ws, geometric_normal_ws);
 //   }
 // A system keeps its store for life: define UMBRAGE_STORE as a specialization constant that is ShadowSystem::shader_store(), and
 // the code for other stores is gone.
@@ -49,6 +49,18 @@ layout(set = UMBRAGE_SET, binding = 2) uniform utexture2DArray umbrage_words[Max
 
 struct Frame {
   uint64_t address;
+  // For the library: what lookups read of the frame's record.
+  uint64_t lights;
+  uint64_t light_order;
+  uint64_t cluster_lights;
+  uint64_t pair_maps;
+  uint64_t maps;
+  uint64_t page_bits;
+  uint64_t page_first;
+  uint64_t pool;
+  uint64_t views;
+  uint64_t cascades;
+  float depth_step;
 };
 
 struct Cluster {
@@ -67,24 +79,38 @@ struct Light {
   float cos_outer;
   uint host_index;   // LightDesc::host_index
   uint index;        // the library's slot
+  // For the library: what visibility takes besides.
+  uint views;        // ViewsCube, …
+  uint view_count;   // 0: casts no shadow
+  uint first_view;
+  uint resolution;
+  float near_m;
+  uint map;          // of the pair of cluster and light; NoIndex: the light's whole map
 };
 
-Frame umbrage_frame(uint64_t address) { return Frame(address); }
+Frame umbrage_frame(uint64_t address) {
+  UmbrageFrames f = UmbrageFrames(address);
+  return Frame(address, f.v[0].lights, f.v[0].light_order, f.v[0].cluster_lights, f.v[0].pair_maps, f.v[0].maps, f.v[0].page_bits,
+               f.v[0].page_first, f.v[0].pool, f.v[0].views, f.v[0].cascades, f.v[0].depth_step);
+}
 
 #include "lookup/find_cluster.glsl"
 
 UMB_FN uint light_slot(Frame frame, Cluster cluster, uint i) {
-  UmbrageFrames f = UmbrageFrames(frame.address);
-  if (cluster.first == NoIndex) return UmbrageUints(f.v[0].light_order).v[i];
-  return UmbrageUints(f.v[0].cluster_lights).v[cluster.first + i];
+  bool listed = cluster.first != NoIndex;
+  return UmbrageUints(listed ? frame.cluster_lights : frame.light_order).v[listed ? cluster.first + i : i];
 }
+
+#include "lookup/find_map.glsl"
 
 /// i < cluster.count.
 Light umbrage_light(Frame frame, Cluster cluster, uint i) {
   uint slot = light_slot(frame, cluster, i);
-  LightRecord record = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
-  return Light(record.position_ws, record.type, record.direction_ws, record.range_m, record.cos_inner, record.cos_outer,
-               record.host_index, slot);
+  UmbrageLights lights = UmbrageLights(frame.lights);
+  return Light(lights.v[slot].position_ws, lights.v[slot].type, lights.v[slot].direction_ws, lights.v[slot].range_m,
+               lights.v[slot].cos_inner, lights.v[slot].cos_outer, lights.v[slot].host_index, slot, lights.v[slot].views,
+               lights.v[slot].view_count, lights.v[slot].first_view, lights.v[slot].resolution, lights.v[slot].near_m,
+               pair_map(frame, cluster, i));
 }
 
 uint umbrage_light_count(Frame frame) { return UmbrageFrames(frame.address).v[0].light_count; }
@@ -112,55 +138,7 @@ uvec2 umbrage_cluster_cell(Frame frame, Cluster cluster) {
   return uvec2(cell / MaxSlices - UmbrageFrames(frame.address).v[0].camera.first_tile, cell % MaxSlices);
 }
 
-#include "lookup/find_map.glsl"
-#include "lookup/nine_taps.glsl"
-#include "lookup/cascades.glsl"
-
-UMB_FN float visibility_in_map(Frame frame, LightRecord light, Map map, vec3 position_ws, vec3 normal_ws, inout TapPage last) {
-  if (light.views == ViewsOrtho) return visibility_ortho(frame, map, light.first_view, position_ws, normal_ws, last);
-  vec3 relative = position_ws - light.position_ws;
-  if (light.views == ViewsSpot) return visibility_spot(frame, map, relative, normal_ws, last);
-  return visibility_cube(frame, map, relative, normal_ws, last);
-}
-
-UMB_FN void count_taps(Frame frame, uint unbacked, uint unmarked) {
-#ifdef UMBRAGE_COUNT_TAPS
-  UmbrageTapCounter counts = UmbrageTapCounter(UmbrageFrames(frame.address).v[0].tap_counts);
-  if (unbacked > 0u) atomicAdd(counts.taps.unbacked, unbacked);
-  if (unmarked > 0u) atomicAdd(counts.taps.unmarked, unmarked);
-#endif
-}
-
-/// How much of light i of the cluster reaches a point: 0 nothing, 1 all. normal_ws: the surface's geometric normal, unit,
-/// on the side that is seen. Meaningful where normal · light > 0 and the light is in range; lights that cast no shadow give
-/// 1, surfaces that the cluster's normals show to face away give 0.
-float umbrage_visibility(Frame frame, Cluster cluster, uint i, vec3 position_ws, vec3 normal_ws) {
-  uint slot = light_slot(frame, cluster, i);
-  LightRecord light = UmbrageLights(UmbrageFrames(frame.address).v[0].lights).v[slot];
-  if (light.type == LightDirectional) {
-    uint cascade = first_cascade(frame, slot);
-    if (cascade != NoIndex) return visibility_cascades(frame, cascade, position_ws, normal_ws);
-  }
-  if (light.view_count == 0u) return 1.0f;
-  Map map = map_of_pair(frame, cluster, i, slot);
-  if (map.resolution == 0u) return 0.0f;
-  TapPage last = TapPage(NoIndex, NoIndex, 0u);
-  float visibility = visibility_in_map(frame, light, map, position_ws, normal_ws, last);
-  if (last.missing == 0u) {
-    if (map.whole != 0u) count_taps(frame, 0u, 9u);
-    return visibility;
-  }
-  // Outside of what the depth buffer showed: all nine taps from the light's whole map, if it has one.
-  Map whole = map_of_record(frame, whole_map(frame, slot), light.near_m);
-  if (whole.resolution == 0u) {
-    count_taps(frame, last.missing, 0u);
-    return visibility;
-  }
-  count_taps(frame, 0u, last.missing);
-  last = TapPage(NoIndex, NoIndex, 0u);
-  return visibility_in_map(frame, light, whole, position_ws, normal_ws, last);
-}
-
+#include "lookup/visibility.glsl"
 #include "lookup/footprint.glsl"
 #ifdef UMBRAGE_DEBUG
 #include "lookup/debug.glsl"

@@ -15,19 +15,20 @@ UMB_FN uint face_of_direction(vec3 direction) {
   float x = abs(direction.x);
   float y = abs(direction.y);
   float z = abs(direction.z);
-  if (x >= y && x >= z) return direction.x < 0.0f ? 1u : 0u;
-  if (y >= z) return direction.y < 0.0f ? 3u : 2u;
-  return direction.z < 0.0f ? 5u : 4u;
+  uint axis = y >= z ? 1u : 2u;
+  float along = y >= z ? direction.y : direction.z;
+  if (x >= y && x >= z) axis = 0u;
+  if (x >= y && x >= z) along = direction.x;
+  return 2u * axis + (along < 0.0f ? 1u : 0u);
 }
 
 /// (sc, tc, axis depth) of a point relative to the light. No divide: s = sc / depth, t = tc / depth where depth > 0.
 UMB_FN vec3 face_coordinates(uint face, vec3 relative) {
-  if (face == 0u) return vec3(-relative.z, -relative.y, relative.x);
-  if (face == 1u) return vec3(relative.z, -relative.y, -relative.x);
-  if (face == 2u) return vec3(relative.x, relative.z, relative.y);
-  if (face == 3u) return vec3(relative.x, -relative.z, -relative.y);
-  if (face == 4u) return vec3(relative.x, -relative.y, relative.z);
-  return vec3(-relative.x, -relative.y, -relative.z);
+  float side = (face & 1u) != 0u ? -1.0f : 1.0f;
+  bool is_x = face < 2u;
+  bool is_y = (face >> 1u) == 1u;
+  return vec3(is_x ? -side * relative.z : is_y ? relative.x : side * relative.x, is_y ? side * relative.z : -relative.y,
+              side * (is_x ? relative.x : is_y ? relative.y : relative.z));
 }
 
 /// The direction of (s, t) on a face; its component along the face's axis is +1 or -1. Inverse of face_coordinates.

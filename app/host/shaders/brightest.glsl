@@ -30,13 +30,12 @@ uint brightest(Frame frame, UmbrageFrame shadows, UmbrageCluster cluster, Point 
   float most = 0.0;
   Lights lights = Lights(frame.data.lights);
   for (uint i = 0u; i < cluster.count; ++i) {
-    uint host_index = umbrage_light(shadows, cluster, i).host_index;
-    if (wanted != NoLight && host_index != wanted) continue;
-    GpuLight light = lights.at[host_index];
+    UmbrageLight light = umbrage_light(shadows, cluster, i);
+    if (wanted != NoLight && light.host_index != wanted) continue;
     if (placed && light.type == LightDirectional) continue;
     Incidence incidence;
-    if (!reaches(light, p.position_ws, p.normal, p.normal, incidence)) continue;
-    float irradiance = luminance(light.intensity) * incidence.attenuation * dot(p.normal, incidence.to_light);
+    if (!reaches(lamp_of(light), p.position_ws, p.normal, p.normal, incidence)) continue;
+    float irradiance = luminance(lights.at[light.host_index].intensity) * incidence.attenuation * dot(p.normal, incidence.to_light);
     if (irradiance <= most) continue;
     most = irradiance;
     best = i;

@@ -68,12 +68,12 @@ void main() {
 
   Lights lights = Lights(frame.data.lights);
   for (uint l = 0u; l < push.count; ++l) {
-    GpuLight light = lights.at[push.first + l];
+    Lamp lamp = lamp_of(lights.at[push.first + l]);
     uint bytes = 0xffffffffu;
     for (uint lane = 0u; lane < 4u; ++lane) {
       Receiver r = receivers[lane];
       Incidence incidence;
-      if (r.exists && reaches(light, r.position_ws, r.geometric_normal, r.normal, incidence)) {
+      if (r.exists && reaches(lamp, r.position_ws, r.geometric_normal, r.normal, incidence)) {
         bytes = bitfieldInsert(bytes, 0u, int(8u * lane), 8);
       }
     }
@@ -90,7 +90,7 @@ void main() {
       uint l = umbrage_light(shadows, cluster, i).host_index - push.first;
       if (l >= push.count) continue;
       Incidence incidence;
-      if (!reaches(lights.at[push.first + l], r.position_ws, r.geometric_normal, r.normal, incidence)) continue;
+      if (!reaches(lamp_of(lights.at[push.first + l]), r.position_ws, r.geometric_normal, r.normal, incidence)) continue;
       float visibility = umbrage_visibility(shadows, cluster, i, r.position_ws, r.geometric_normal);
       put_byte(push.output_buffer, l * quads + quad, lane, uint(round(clamp(visibility, 0.0, 1.0) * 254.0)));
       if (push.output_band != 0ul) {

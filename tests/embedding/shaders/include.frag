@@ -16,6 +16,9 @@ void main() {
   UmbrageCluster seen = umbrage_cluster(shadows, position_ws.xy, 0.5);
   float lit = 0.0;
   for (uint i = 0u; i < near.count; i++) lit += umbrage_visibility(shadows, near, i, position_ws, vec3(0.0, 1.0, 0.0));
-  for (uint i = 0u; i < seen.count; i++) lit += float(umbrage_light(shadows, seen, i).host_index);
+  for (uint i = 0u; i < seen.count; i++) {
+    UmbrageLight light = umbrage_light(shadows, seen, i);
+    lit += float(light.host_index) * umbrage_visibility(shadows, light, position_ws, vec3(0.0, 1.0, 0.0));
+  }
   color = vec4(lit);
 }
