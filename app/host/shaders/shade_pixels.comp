@@ -8,7 +8,7 @@
 #define UMBRAGE_COUNT_TAPS
 #include "lighting.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FramePush push; };
 
 layout(set = SetTargets, binding = 5) uniform samplerCube reflection_cube;
@@ -43,6 +43,11 @@ vec3 shade_pixel(Frame frame, UmbrageFrame shadows, ivec2 pixel, float depth, ou
          shade(frame, shadows, cluster, frame.data.eye_ws + offset, geometric_normal, surface.normal, eye, brdf);
 }
 
+/// Of 8×8 pixels such that 4, 8, 16 or 32 invocations in a row lie together: they meet the same lights and read close texels.
+uvec2 place_in_tile(uint i) {
+  return uvec2((i & 3u) | (i >> 1u & 4u), (i >> 2u & 1u) | (i >> 3u & 6u));
+}
+
 /// Adds up what the picture took: once a subgroup, without a barrier.
 void count_lights(Frame frame, uint lights) {
   uint sum = subgroupAdd(lights);
@@ -57,7 +62,7 @@ void count_lights(Frame frame, uint lights) {
 void main() {
   Frame frame = Frame(push.frame);
   UmbrageFrame shadows = umbrage_frame(frame.data.umbrage);
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 pixel = 8 * ivec2(gl_WorkGroupID.xy) + ivec2(place_in_tile(gl_LocalInvocationIndex));
   if (pixel.x >= int(frame.data.width) || pixel.y >= int(frame.data.height)) return;
   float depth = texelFetch(depth_target, pixel, 0).x;
   uint lights = 0u;
