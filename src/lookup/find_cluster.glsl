@@ -6,17 +6,19 @@ UMB_FN Cluster cluster_of_cell(Frame frame, uvec2 tile, uint slice) {
   ClusterWord word = UmbrageWords(f.v[0].cluster_words).v[tile_index * SliceWords + (slice >> 5u)];
   uint bit = 1u << (slice & 31u);
   uint index = word.first + uint(bitCount(word.occupied & (bit - 1u)));
-  if ((word.occupied & bit) == 0u || index >= f.v[0].cluster_capacity) return Cluster(NoIndex, NoIndex, f.v[0].light_count, 0u);
-  ClusterList list = UmbrageLists(f.v[0].cluster_lists).v[index];
-  return Cluster(index, list.first, list.count, list.first == NoIndex ? 0u : 1u);
+  bool seen = (word.occupied & bit) != 0u && index < f.v[0].cluster_capacity;
+  ClusterList list = UmbrageLists(f.v[0].cluster_lists).v[seen ? index : 0u];
+  uint first = seen ? list.first : NoIndex;
+  return Cluster(seen ? index : NoIndex, first, seen ? list.count : f.v[0].light_count, first == NoIndex ? 0u : 1u);
 }
 
 /// The cluster of a pixel (its centre: whole + 0.5) with a depth-buffer value. Background has no lights.
 Cluster umbrage_cluster(Frame frame, vec2 pixel, float device_depth) {
   CameraRecord camera = UmbrageFrames(frame.address).v[0].camera;
-  if (is_background(device_depth)) return Cluster(NoIndex, NoIndex, 0u, 0u);
   uvec2 tile = uvec2(floor_to_uint(pixel.x / float(TileSide), camera.tiles.x - 1u), floor_to_uint(pixel.y / float(TileSide), camera.tiles.y - 1u));
-  return cluster_of_cell(frame, tile, slice_of(camera, view_depth(camera, device_depth)));
+  Cluster cluster = cluster_of_cell(frame, tile, slice_of(camera, view_depth(camera, device_depth)));
+  if (is_background(device_depth)) cluster = Cluster(NoIndex, NoIndex, 0u, 0u);
+  return cluster;
 }
 
 /// The cluster of any point. Where the depth buffer showed nothing, and beside what it showed in a cell (the light lists know

@@ -40,14 +40,18 @@ UMB_FN uint whole_map(Frame frame, uint slot) { return UmbrageLightMapList(Umbra
 
 /// A pair has a map of its own unless it faces away; points that no depth buffer saw have the light's whole map: NoIndex.
 UMB_FN uint pair_map(Frame frame, Cluster cluster, uint i) {
-  if (store_of(frame) == StoreAtlas || cluster.is_sample == 0u) return NoIndex;
-  return UmbrageUints(frame.pair_maps).v[cluster.first + i];
+  uint map = NoIndex;
+  if (store_of(frame) != StoreAtlas && cluster.is_sample != 0u) map = UmbrageUints(frame.pair_maps).v[cluster.first + i];
+  return map;
 }
 
 /// The map with which a light's visibility is looked up.
 UMB_FN Map map_of_light(Frame frame, Light light) {
-  if (store_of(frame) == StoreAtlas) return Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0f);
-  uint index = light.map;
-  if (index == NoIndex) index = whole_map(frame, light.index);
-  return map_of_record(frame, index, light.near_m);
+  Map map = Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0f);
+  if (store_of(frame) != StoreAtlas) {
+    uint index = light.map;
+    if (index == NoIndex) index = whole_map(frame, light.index);
+    map = map_of_record(frame, index, light.near_m);
+  }
+  return map;
 }

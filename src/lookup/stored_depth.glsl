@@ -38,20 +38,24 @@ UMB_FN float texel_of_page(Frame frame, Map map, uint view, uvec2 texel, uint fi
 
 /// A texel of any store; missing: counts texels without a page.
 UMB_FN float stored_depth(Frame frame, Map map, uint view, uvec2 texel, inout uint missing) {
+  float depth = 0.0f;
 #ifdef UMBRAGE_SET
   if (store_of(frame) == StoreAtlas) {
-    uvec2 tile = atlas_tile(map.first_view + view, UmbrageFrames(frame.address).v[0].atlas_columns, UmbrageFrames(frame.address).v[0].atlas_resolution);
-    return texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
-  }
-  if (store_of(frame) == StoreImages) {
-    if ((map.faces >> view & 1u) != 0u) return texelFetch(umbrage_images[nonuniformEXT(map.image)], ivec3(texel, map.layer + view), 0).x;
-    ++missing;
-    return 0.0f;
-  }
+    UmbrageFrames f = UmbrageFrames(frame.address);
+    uvec2 tile = atlas_tile(map.first_view + view, f.v[0].atlas_columns, f.v[0].atlas_resolution);
+    depth = texelFetch(umbrage_atlas, ivec2(tile + texel), 0).x;
+  } else if (store_of(frame) == StoreImages) {
+    bool drawn = (map.faces >> view & 1u) != 0u;
+    if (drawn) depth = texelFetch(umbrage_images[nonuniformEXT(map.image)], ivec3(texel, map.layer + view), 0).x;
+    missing += drawn ? 0u : 1u;
+  } else
 #endif
-  uint first = find_page(frame, map, view, (texel.y / PageSide) * map.pages + texel.x / PageSide);
-  missing += first == NoIndex ? 1u : 0u;
-  return texel_of_page(frame, map, view, texel, first);
+  {
+    uint first = find_page(frame, map, view, (texel.y / PageSide) * map.pages + texel.x / PageSide);
+    missing += first == NoIndex ? 1u : 0u;
+    depth = texel_of_page(frame, map, view, texel, first);
+  }
+  return depth;
 }
 
 /// 3×3 texels of a view: neighbours, but that at the view's border two may be the same.

@@ -33,12 +33,10 @@ UMB_FN vec3 face_coordinates(uint face, vec3 relative) {
 
 /// The direction of (s, t) on a face; its component along the face's axis is +1 or -1. Inverse of face_coordinates.
 UMB_FN vec3 face_direction(uint face, float s, float t) {
-  if (face == 0u) return vec3(1.0f, -t, -s);
-  if (face == 1u) return vec3(-1.0f, -t, s);
-  if (face == 2u) return vec3(s, 1.0f, t);
-  if (face == 3u) return vec3(s, -1.0f, -t);
-  if (face == 4u) return vec3(s, -t, 1.0f);
-  return vec3(-s, -t, -1.0f);
+  float side = (face & 1u) != 0u ? -1.0f : 1.0f;
+  bool is_x = face < 2u;
+  bool is_y = (face >> 1u) == 1u;
+  return vec3(is_x ? side : is_y ? s : side * s, is_y ? side : -t, is_x ? -side * s : is_y ? side * t : side);
 }
 
 /// face_coordinates as a matrix: view_from_world of a light at the origin. Like every frame here it mirrors
@@ -63,12 +61,13 @@ UMB_FN CubeTap cube_tap(uint face, float s, float t) {
   tap.face = face;
   tap.s = s;
   tap.t = t;
-  if (max(abs(s), abs(t)) <= 1.0f) return tap;
-  vec3 direction = face_direction(face, s, t);
-  tap.face = face_of_direction(direction);
-  vec3 coordinates = face_coordinates(tap.face, direction);
-  tap.s = coordinates.x / coordinates.z;
-  tap.t = coordinates.y / coordinates.z;
+  if (max(abs(s), abs(t)) > 1.0f) {
+    vec3 direction = face_direction(face, s, t);
+    tap.face = face_of_direction(direction);
+    vec3 coordinates = face_coordinates(tap.face, direction);
+    tap.s = coordinates.x / coordinates.z;
+    tap.t = coordinates.y / coordinates.z;
+  }
   return tap;
 }
 

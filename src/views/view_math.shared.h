@@ -123,8 +123,8 @@ UMB_FN float receiver_plane_depth(vec3 normal, vec3 relative, vec3 direction) {
   float own_depth = dot(relative, direction) / dot(direction, direction);
   float plane_distance = dot(normal, relative);
   float slope = dot(normal, direction);
-  if (abs(plane_distance) > 4.0f * own_depth * abs(slope) || plane_distance * slope <= 0.0f) return own_depth;
-  return plane_distance / slope;
+  bool meets = abs(plane_distance) <= 4.0f * own_depth * abs(slope) && plane_distance * slope > 0.0f;
+  return meets ? plane_distance / slope : own_depth;
 }
 
 UMB_NAMESPACE_END
