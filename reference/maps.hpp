@@ -68,7 +68,7 @@ double requested_resolution(const MapLight&, const MapRules&, double pixels, con
 
 // --- Maps -------------------------------------------------------------------------------------------------------------
 
-constexpr uint32_t page_side = 64;  ///< Texels; smaller maps are one page a view.
+constexpr uint32_t page_side = 32;  ///< Texels; smaller maps are one page a view.
 
 /// The bucket (O8) or, finest first, the level of one request among a light's.
 uint32_t place_of_request(double request, double finest, const MapRules&);

@@ -22,11 +22,13 @@ void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (scene.light_slots() == 0 || plan.store == Store::fixed_cubes) return;
 
   // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
-  maps.record(recorder, {scene, clusters, block, counters, views.buffer(), plan.settings, plan.seen(),
-                         backing(plan.store), plan.all_lights});
+  const maps::Maps::Inputs receivers{scene,         clusters,    block,        counters, views.buffer(), plan.settings, plan.seen(),
+                                     backing(plan.store), plan.all_lights};
+  maps.record(recorder, receivers);
 
   // Marked pages → places in the pool, cleared; or a list for the host, which binds them (O18).
   if (plan.store == Store::page_pool) pool.record(recorder, maps, block, counters);
+  if (draws_samples_only(plan)) maps.mark_texels(recorder, receivers, pool.texel_bits());
   if (plan.store == Store::hardware_sparse) sparse.record_requests(recorder, maps, block, counters, requests);
 }
 
@@ -89,7 +91,12 @@ raster::PageWriterInputs Frame::page_inputs(const FramePlan& plan) const {
           map_culling.draw_counts(),
           map_culling.capacity(),
           &counters,
-          plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr};
+          plan.settings.caster_culling == CasterCulling::receiver_grid ? &maps.receiver_depth() : nullptr,
+          draws_samples_only(plan) ? &pool.texel_bits() : nullptr};
+}
+
+bool Frame::draws_samples_only(const FramePlan& plan) {
+  return plan.store == Store::page_pool && plan.settings.writer != Writer::fragments && plan.settings.receiver_boxes == ReceiverBoxes::samples;
 }
 
 void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {

@@ -63,6 +63,8 @@ struct Frame {
   }
   /// What the casters of the page pool are culled and drawn with.
   culling::MapCulling::Inputs cull_inputs(const FramePlan&) const;
+  /// Only texels that lookups of samples read (ReceiverBoxes::samples)?
+  static bool draws_samples_only(const FramePlan&);
   raster::PageWriterInputs page_inputs(const FramePlan&) const;
 
   VkDeviceAddress caster_shape() const { return block.address() + offsetof(FrameBlock, caster_shape); }

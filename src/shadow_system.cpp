@@ -120,7 +120,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     s.plan_cameras(desc.cameras, cameras);
     FrameBlock block{};
     block.record.explicit_bounds = desc.settings.cluster_bounds == ClusterBounds::explicit_bits;
-    block.record.marks_blocks = desc.settings.receiver_boxes == ReceiverBoxes::blocks;
+    block.record.marks_blocks = desc.settings.receiver_boxes != ReceiverBoxes::clusters;
     s.fill_block(block, cameras, *s.current);
     std::memset(s.current->statistics.mapped(), 0, sizeof(shared::TapCounts));
     if (s.current->page_requests) std::memset(s.current->page_requests.mapped(), 0, sizeof(shared::SparseRequests));

@@ -49,6 +49,7 @@ enum class FacingAway : uint8_t {
 enum class ReceiverBoxes : uint8_t {
   clusters,     ///< O3, O7: clusters, as bounded by ClusterBounds. Points anywhere in a cluster's box find its pages.
   blocks,       ///< Of each cluster the samples in every 4×4 pixels: fewer pages, nearer receivers, fewer casters.
+  samples,      ///< And of pages only the texels that the nine taps of samples read: fewer are drawn (Writer::compute).
 };
 /// Each drops what the one before does and more. The last three need virtual shadow maps; with fixed cubes they are view_mask.
 enum class CasterCulling : uint8_t {
@@ -94,7 +95,7 @@ struct FrameSettings {
   ResolutionForm resolution = ResolutionForm::corrected;
   HistogramBuckets buckets = HistogramBuckets::logarithmic;  ///< Of the exact layout.
   FacingAway facing_away = FacingAway::dropped;
-  ReceiverBoxes receiver_boxes = ReceiverBoxes::blocks;
+  ReceiverBoxes receiver_boxes = ReceiverBoxes::samples;
   uint32_t maps_per_light = 6;               ///< O8: at most, 1…16. Levels: coarser requests use the coarsest kept.
   uint32_t levels_per_sun = 16;              ///< Levels layout in the page pool: maps of a directional light at most, 1…16.
   uint32_t undersampling = 1;                ///< O17: divides every resolution; 1, 2 or 4.

@@ -74,6 +74,7 @@ struct FrameRecord {
   uint64_t page_bits;        // words: which pages there are
   uint64_t page_first;       // words: where they begin in the pool, in PoolUnit texels
   uint64_t pool;             // depth keys
+  uint64_t texel_bits;       // a bit a texel of the pool: lookups of samples read it (pages of PageSide; ReceiverBoxes::samples)
   uint64_t projection;       // receivers: ProjectionSide words a view
   uint64_t receiver_depth;   // bits of the farthest receiver depth, receiver_grid² a view
   uint receiver_grid;        // cells along a view's side: 1 (PMCD), 2 … 32
@@ -84,7 +85,7 @@ struct FrameRecord {
   uint camera_count;
   uint tile_count;           // of all cameras
 };
-UMB_ASSERT_SIZE(FrameRecord, 432);
+UMB_ASSERT_SIZE(FrameRecord, 440);
 
 /// FrameRecord::store.
 UMB_CONST uint StoreAtlas = 0u;

@@ -31,6 +31,7 @@ class Clusters {
   void record_lights(gpu::Recorder&, const gpu::Buffer& frame, const gpu::Buffer& counters, const scene::GpuScene&,
                      VkDeviceAddress tree_shape, LightAssignment);
   const gpu::Buffer& used_lights() const { return used_; }
+  const gpu::Buffer& words() const { return words_; }
   const gpu::Buffer& boxes() const { return boxes_; }
   const gpu::Buffer& cones() const { return cones_; }
   const gpu::Buffer& cells() const { return cells_; }

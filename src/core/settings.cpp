@@ -37,7 +37,7 @@ constexpr std::array<Choice, 2> kResolution{{{"paper", 0}, {"corrected", 1}}};
 constexpr std::array<Choice, 2> kBuckets{{{"logarithmic", 0}, {"linear", 1}}};
 constexpr std::array<Choice, 6> kCascades{
     {{"none", 0}, {"redraw", 1}, {"cached", 2}, {"scrolled", 3}, {"scrolled_literal", 4}, {"guard_band", 5}}};
-constexpr std::array<Choice, 2> kReceiverBoxes{{{"clusters", 0}, {"blocks", 1}}};
+constexpr std::array<Choice, 3> kReceiverBoxes{{{"clusters", 0}, {"blocks", 1}, {"samples", 2}}};
 constexpr std::array<Choice, 2> kFacingAway{{{"kept", 0}, {"dropped", 1}}};
 
 #define UMB_FIELD(path)                                            \
@@ -84,8 +84,8 @@ const auto kFields = std::to_array<Field>({
     {{"facing_away", "kept|dropped", "cluster/light pairs whose normals all face away from the light"},
      UMB_FIELD(frame.facing_away),
      kFacingAway},
-    {{"receiver_boxes", "clusters|blocks",
-      "what marks pages and receivers: boxes of clusters (O3, O7), or of their samples in every 4x4 pixels"},
+    {{"receiver_boxes", "clusters|blocks|samples",
+      "what marks pages and receivers: boxes of clusters (O3, O7), of their samples in every 4x4 pixels, or these and each sample's texels"},
      UMB_FIELD(frame.receiver_boxes),
      kReceiverBoxes},
     {{"maps_per_light", "1..16", "maps of different resolution that a light may have (O8)"},

@@ -16,31 +16,16 @@ MapRecord map_of_word(FrameRecord frame, uint word) {
   return Maps(frame.maps).v[low];
 }
 
-shared uint units_of_group;
-shared uint pages_of_group;
-
 void main() {
-  if (gl_LocalInvocationIndex == 0u) {
-    units_of_group = 0u;
-    pages_of_group = 0u;
-  }
-  barrier();
   uint word = global_index(64u);
-  if (word < Counters(push.counters).counters.page_words) {
-    FrameRecord frame = Frame(push.frame).record;
-    uint pages = uint(bitCount(Uints(frame.page_bits).v[word]));
-    uint units = 0u;
-    if (pages > 0u) {
-      units = pages * page_units_of(map_of_word(frame, word).resolution);
-      atomicAdd(units_of_group, units);
-      atomicAdd(pages_of_group, pages);
-    }
-    Uints(frame.page_first).v[word] = units;
-  }
-  barrier();
-  if (gl_LocalInvocationIndex != 0u || pages_of_group == 0u) return;
-  atomicAdd(Counters(push.counters).counters.pages, pages_of_group);
-  // Saturates: what is beyond 2^31 units (137 GB) is too much whatever it is.
-  if (atomicAdd(Counters(push.counters).counters.pool_units, units_of_group) > 0x80000000u)
+  if (word >= Counters(push.counters).counters.page_words) return;
+  FrameRecord frame = Frame(push.frame).record;
+  uint pages = uint(bitCount(Uints(frame.page_bits).v[word]));
+  uint units = pages == 0u ? 0u : pages * page_units_of(map_of_word(frame, word).resolution);
+  Uints(frame.page_first).v[word] = units;
+  if (pages == 0u) return;   // most: that few atomics are cheaper than barriers
+  atomicAdd(Counters(push.counters).counters.pages, pages);
+  // Saturates: what is beyond 2^31 units (275 GB) is too much whatever it is.
+  if (atomicAdd(Counters(push.counters).counters.pool_units, units) > 0x80000000u)
     atomicMin(Counters(push.counters).counters.pool_units, 0x80000000u);
 }

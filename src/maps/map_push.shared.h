@@ -78,14 +78,17 @@ struct PlaceLevelsPush {   // place_levels
 };
 UMB_ASSERT_SIZE(PlaceLevelsPush, 32);
 
-struct MarkBlocksPush {    // mark_blocks
+/// Threads along the side of a workgroup of mark_texels, which has 2×2 pixels each.
+UMB_CONST uint MarkSide = 8u;
+
+struct MarkSamplesPush {   // mark_blocks, mark_texels
   uint64_t frame;
   uint64_t camera;         // CameraRecord of the one whose images are bound
   uint64_t counters;
   uint normal_encoding;
   uint drop_facing_away;
 };
-UMB_ASSERT_SIZE(MarkBlocksPush, 32);
+UMB_ASSERT_SIZE(MarkSamplesPush, 32);
 
 struct PlaceMapsPush {     // place_maps
   uint64_t frame;

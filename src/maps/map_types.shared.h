@@ -7,10 +7,10 @@
 
 UMB_NAMESPACE_BEGIN
 
-/// Texels along a page's side. Maps below it are one page of their own side a view.
-UMB_CONST uint PageSide = 64u;
-/// Places in the pool are counted in units of so many texels.
-UMB_CONST uint PoolUnit = 16u;
+/// Texels along a page's side: a row has as many as a word has bits. Maps below it are one page of their own side a view.
+UMB_CONST uint PageSide = 32u;
+/// Places in the pool are counted in units of so many texels: a row of a page.
+UMB_CONST uint PoolUnit = 32u;
 /// Resolutions: powers of two 2^MinLevel … 2^MaxLevel (levels), or any multiple of the page (exact).
 UMB_CONST uint MinLevel = 2u;
 UMB_CONST uint MaxLevel = 13u;
@@ -66,7 +66,7 @@ UMB_FN uint page_words_of(uint pages) { return (pages * pages + 31u) / 32u; }
 /// Pool units of one page of a map.
 UMB_FN uint page_units_of(uint resolution) {
   uint side = page_side_of(resolution);
-  return side * side / PoolUnit;
+  return (side * side + PoolUnit - 1u) / PoolUnit;
 }
 
 /// Of a grid over a view, the cells that texels first … last touch.

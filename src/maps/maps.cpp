@@ -34,6 +34,9 @@ constexpr uint32_t kMark[] =
 constexpr uint32_t kMarkBlocks[] =
 #include "shaders/mark_blocks.comp.inc"
     ;
+constexpr uint32_t kMarkTexels[] =
+#include "shaders/mark_texels.comp.inc"
+    ;
 constexpr uint32_t kCountPages[] =
 #include "shaders/count_pages.comp.inc"
     ;
@@ -62,6 +65,7 @@ Result<Maps> Maps::create(const gpu::PipelineFactory& factory) {
              {out.clear_, kClear, "clear marks"},
              {out.mark_, kMark, "mark pages"},
              {out.mark_blocks_, kMarkBlocks, "mark blocks"},
+             {out.mark_texels_, kMarkTexels, "mark texels"},
              {out.count_pages_, kCountPages, "count pages"},
              {out.count_blocks_, kCountBlocks, "count blocks"},
              {out.estimate_, kEstimate, "estimate demand"},
@@ -118,7 +122,7 @@ shared::MapsPush Maps::push(const Inputs& in) const {
   if (settings.resolution == ResolutionForm::paper) flags |= shared::MapsPaperResolution;
   if (settings.buckets == HistogramBuckets::linear) flags |= shared::MapsLinearBuckets;
   if (settings.facing_away == FacingAway::dropped) flags |= shared::MapsDropFacingAway;
-  if (settings.receiver_boxes == ReceiverBoxes::blocks) flags |= shared::MapsMarkBlocks;
+  if (settings.receiver_boxes != ReceiverBoxes::clusters) flags |= shared::MapsMarkBlocks;
   if (in.all_lights) flags |= shared::MapsAllLights;
   if (in.backing.whole_images) flags |= shared::MapsWholeImages;
   if (in.backing.images && !in.backing.whole_images) flags |= shared::MapsSparse;
@@ -232,7 +236,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
     pass.write(maps_), pass.write(pair_maps_), pass.write(page_bits_), pass.write(projection_),
         pass.write(receiver_depth_);
     pass.dispatch_indirect(mark_, push, in.counters, offsetof(shared::FrameCounters, fit_pair_groups));
-    if (in.settings.receiver_boxes == ReceiverBoxes::blocks) mark_blocks(recorder, in);
+    if (in.settings.receiver_boxes != ReceiverBoxes::clusters) mark_blocks(recorder, in);
   }
   gpu::Scope scope(recorder, "fit budget");
   if (!in.backing.whole_images) count(recorder, in, push);
@@ -251,7 +255,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
 
 void Maps::mark_blocks(gpu::Recorder& recorder, const Inputs& in) {
   gpu::Pass pass = recorder.pass("mark blocks");
-  shared::MarkBlocksPush push{.frame = pass.read(in.frame),
+  shared::MarkSamplesPush push{.frame = pass.read(in.frame),
                               .counters = pass.read(in.counters),
                               .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
   pass.read(in.counters, gpu::Access::indirect_read), pass.read(in.scene.light_buffer()), pass.read(in.views);
@@ -261,6 +265,24 @@ void Maps::mark_blocks(gpu::Recorder& recorder, const Inputs& in) {
     recorder.use_frame_set(camera.images);
     push.camera = camera.record, push.normal_encoding = static_cast<uint32_t>(camera.normal_encoding);
     pass.dispatch_indirect(mark_blocks_, push, in.counters, offsetof(shared::FrameCounters, fit_cluster_groups));
+  }
+  recorder.use_frame_set(in.cameras[0].images);
+}
+
+void Maps::mark_texels(gpu::Recorder& recorder, const Inputs& in, const gpu::Buffer& texel_bits) {
+  if (in.scene.light_slots() == 0) return;
+  gpu::Scope scope(recorder, "mark texels");
+  gpu::Pass pass = recorder.pass("mark texels");
+  shared::MarkSamplesPush push{.frame = pass.read(in.frame),
+                               .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
+  pass.read(in.scene.light_buffer()), pass.read(in.views), pass.read(in.clusters.words());
+  pass.read(in.clusters.lists()), pass.read(pair_maps_), pass.read(maps_);
+  pass.read(page_bits_), pass.read(page_first_), pass.write(texel_bits);
+  for (const clusters::FrameCamera& camera : in.cameras) {
+    recorder.use_frame_set(camera.images);
+    push.camera = camera.record, push.normal_encoding = static_cast<uint32_t>(camera.normal_encoding);
+    const glm::uvec2 groups = camera.tiles * (shared::TileSide / (2 * shared::MarkSide));
+    pass.dispatch(mark_texels_, push, groups.x, groups.y);
   }
   recorder.use_frame_set(in.cameras[0].images);
 }

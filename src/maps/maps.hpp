@@ -47,6 +47,9 @@ class Maps {
   /// all of it fits.
   void record(gpu::Recorder&, const Inputs&);
 
+  /// Which texels of the pool lookups of the cameras' samples read, once pages have their places: bits, cleared before.
+  void mark_texels(gpu::Recorder&, const Inputs&, const gpu::Buffer& texel_bits);
+
   const gpu::Buffer& maps() const { return maps_; }
   const gpu::Buffer& page_bits() const { return page_bits_; }
   /// Pool units that each word's pages need, until the store has turned them into places.
@@ -76,7 +79,7 @@ class Maps {
   void count(gpu::Recorder&, const Inputs&, const shared::MapsPush&);
 
   Sizes sizes_;
-  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, mark_blocks_, count_pages_,
+  gpu::Pipeline request_, bucket_, place_levels_, choose_, place_, clear_, mark_, mark_blocks_, mark_texels_, count_pages_,
       count_blocks_, estimate_, fit_;
   gpu::Buffer maps_, light_maps_, requests_, level_bounds_, demand_, pair_requests_, pair_maps_, page_bits_,
       page_first_, projection_, receiver_depth_;

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "maps/map_arrays.glsl"
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform PushBlock { MarkBlocksPush push; };
+layout(push_constant, scalar) uniform PushBlock { MarkSamplesPush push; };
 #include "clusters/sample.glsl"
 #include "maps/mark_box.glsl"
 

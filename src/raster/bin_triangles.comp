@@ -12,7 +12,7 @@ layout(set = 1, binding = 0) uniform sampler2D masks[];
 
 /// True where an edge leaves the whole tile outside.
 bool misses(ivec3 edges, ivec3 step_x, ivec3 step_y) {
-  ivec3 most = edges + (max(step_x, ivec3(0)) + max(step_y, ivec3(0))) * int(TileTexels - 1u);
+  ivec3 most = edges + (max(step_x, ivec3(0)) + max(step_y, ivec3(0))) * int(PageSide - 1u);
   return any(lessThan(most, ivec3(0)));
 }
 
@@ -25,10 +25,18 @@ float nearest_key(RasterTriangle t, ivec3 edges, vec3 fractions, ivec2 size) {
   return min(t.z_max, dot(weights, t.z) + max(across, 0.0) + max(down, 0.0) + margin);
 }
 
-void link(uint triangle, uint tile, uint first_texel, ivec3 edges, vec3 fractions, float nearest, uint node) {
-  uint next = atomicExchange(Uints(push.heads).v[tile], node);
+/// Is any of texels first … last of a page looked up?
+bool any_looked_up(Pool pool, uint origin, ivec2 first, ivec2 last) {
+  uint columns = bits_between(first.x, last.x + 1);
+  for (int y = first.y; y <= last.y; ++y)
+    if ((pool.texel_bits.v[origin / PageSide + uint(y)] & columns) != 0u) return true;
+  return false;
+}
+
+void link(uint triangle, RasterTile tile, ivec3 edges, vec3 fractions, float nearest, uint node) {
+  uint next = atomicExchange(Uints(push.heads).v[tile_of_texel(tile.first_texel)], node);
   TileNodes(push.nodes).v[node] = TileNode(triangle, next, edges, fractions, nearest);
-  if (next == NoIndex) RasterTiles(push.tiles).v[atomicAdd(Appended(push.appended).v.tiles, 1u)] = RasterTile(tile, first_texel);
+  if (next == NoIndex) RasterTiles(push.tiles).v[atomicAdd(Appended(push.appended).v.tiles, 1u)] = tile;
 }
 
 void main() {
@@ -36,38 +44,36 @@ void main() {
   uint index = group_index();
   if (index >= min(appended.v.triangles, push.large_capacity)) return;
   Frame frame = Frame(push.frame);
+  Pool pool = pool_of(frame);
   RasterTriangle t = RasterTriangles(push.triangles).v[index];
   MapRecord map = Maps(frame.v.maps).v[t.map];
   float near_m = Views(frame.v.views).v[map.first_view].near_m;
   ivec2 first, last;
   texel_box(t, map.resolution, first, last);
-  ivec2 first_tile = first / int(TileTexels);
-  ivec2 tiles = last / int(TileTexels) - first_tile + 1;
+  ivec2 first_tile = first / int(PageSide);
+  ivec2 tiles = last / int(PageSide) - first_tile + 1;
+  bool looked_up = draws_looked_up(map);
   ivec3 step_x = steps_x(t);
   ivec3 step_y = steps_y(t);
   for (int i = int(gl_LocalInvocationIndex); i < tiles.x * tiles.y; i += int(RasterThreads)) {
-    ivec2 corner = (first_tile + ivec2(i % tiles.x, i / tiles.x)) * int(TileTexels);
+    ivec2 corner = (first_tile + ivec2(i % tiles.x, i / tiles.x)) * int(PageSide);
     ivec3 edges;
     vec3 fractions;
     start_edges(t, uvec2(corner), edges, fractions);
     if (misses(edges, step_x, step_y)) continue;
-    uint origin = page_origin(frame, map, t.view, uvec2(corner));
+    uint origin = page_origin(pool, map, t.view, uvec2(corner));
     if (origin == NoTexel) continue;
     ivec2 seen_first = max(corner, first);
-    ivec2 seen_last = min(corner + int(TileTexels) - 1, last);
+    ivec2 seen_last = min(corner + int(PageSide) - 1, last);
     ivec3 seen_edges = edges + step_x * (seen_first.x - corner.x) + step_y * (seen_first.y - corner.y);
+    if (looked_up && !any_looked_up(pool, origin, seen_first % int(PageSide), seen_last % int(PageSide))) continue;
     float nearest = nearest_key(t, seen_edges, fractions, seen_last - seen_first);
-    if (push.flags == TestReceivers && !receivers_see(frame, map, t.view, seen_first, seen_last, near_m, nearest)) continue;
+    if ((push.flags & TestReceivers) != 0u && !receivers_see(pool, map, t.view, seen_first, seen_last, near_m, nearest)) continue;
     uint node = atomicAdd(appended.v.nodes, 1u);
     if (node < push.node_capacity) {
-      uvec2 in_page = uvec2(corner) % PageSide;
-      uvec2 tile = in_page / TileTexels;
-      // Pages of full side begin at least that far apart.
-      const uint side = PageSide / TileTexels;
-      uint number = origin / (PageSide * PageSide) * (side * side) + tile.y * side + tile.x;
-      link(index, number, origin + in_page.y * PageSide + in_page.x, edges, fractions, nearest, node);
+      link(index, RasterTile(origin, looked_up ? 1u : 0u), edges, fractions, nearest, node);
     } else {
-      draw_block(Uints(frame.v.pool), t, PageSide, origin, seen_first, seen_last, seen_edges, fractions);
+      draw_block(pool, t, PageSide, origin, looked_up, seen_first, seen_last, seen_edges, fractions);
     }
   }
 }

@@ -26,12 +26,12 @@ bool covers_one(RasterTriangle t, uint origin, ivec2 first, ivec2 last, ivec3 ro
 void take_triangle(RasterTriangle t, bool narrow) {
   ivec2 first, last;
   texel_box(t, map.resolution, first, last);
-  int side = int(TileTexels);
+  int side = int(PageSide);
   for (int top = first.y / side * side; top <= last.y && !needed; top += side) {
     for (int left = first.x / side * side; left <= last.x && !needed; left += side) {
       ivec2 block = ivec2(left, top);
       ivec2 lo = max(block, first);
-      uint origin = page_origin(frame, map, t.view, uvec2(lo));
+      uint origin = page_origin(pool, map, t.view, uvec2(lo));
       if (origin == NoTexel) continue;
       ivec3 edges;
       vec3 fractions;

@@ -10,11 +10,26 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ItemCounts {
 
 const uint NoTexel = 0xffffffffu;
 
+/// What a writer reads of a frame again and again.
+struct Pool {
+  Uints texels;            // depth keys
+  Uints page_bits;
+  Uints page_first;
+  Uints texel_bits;        // which texels are looked up: a row of a page of PageSide a word
+  Uints receiver_depth;
+  uint receiver_grid;
+};
+
+Pool pool_of(Frame frame) {
+  return Pool(Uints(frame.v.pool), Uints(frame.v.page_bits), Uints(frame.v.page_first), Uints(frame.v.texel_bits),
+              Uints(frame.v.receiver_depth), frame.v.receiver_grid);
+}
+
 /// False when in every cell of the receiver grid that texels first … last touch, all receivers lie in front of `nearest`, a
 /// depth key. Exact: keys of a view are in the order of its depths.
-bool receivers_see(Frame frame, MapRecord map, uint view, ivec2 first, ivec2 last, float near_m, float nearest) {
+bool receivers_see(Pool pool, MapRecord map, uint view, ivec2 first, ivec2 last, float near_m, float nearest) {
   if (map.whole != 0u) return true;
-  uint side = frame.v.receiver_grid;
+  uint side = pool.receiver_grid;
   CellRect cells = cells_of_texels(first, last, side, map.resolution);
   if ((cells.last.x - cells.first.x + 1) * (cells.last.y - cells.first.y + 1) > 64) return true;
   // A hair nearer: the key was rounded.
@@ -22,7 +37,7 @@ bool receivers_see(Frame frame, MapRecord map, uint view, ivec2 first, ivec2 las
   uint row = ((map.first_receiver + view) * side + uint(cells.first.y)) * side;
   for (int y = cells.first.y; y <= cells.last.y; ++y) {
     for (int x = cells.first.x; x <= cells.last.x; ++x) {
-      float farthest = uintBitsToFloat(Uints(frame.v.receiver_depth).v[row + uint(x)]);
+      float farthest = uintBitsToFloat(pool.receiver_depth.v[row + uint(x)]);
       if (farthest > 0.0 && farthest >= depth) return true;
     }
     row += side;
@@ -31,10 +46,12 @@ bool receivers_see(Frame frame, MapRecord map, uint view, ivec2 first, ivec2 las
 }
 
 /// Where the texel (0, 0) of the page that holds `texel` lies in the pool; NoTexel for a page that nobody marked.
-uint page_origin(Frame frame, MapRecord map, uint view, uvec2 texel) {
+uint page_origin(Pool pool, MapRecord map, uint view, uvec2 texel) {
   PagePlace place = page_place(map, view, texel);
-  uint bits = Uints(frame.v.page_bits).v[place.word];
+  uint bits = pool.page_bits.v[place.word];
   if ((bits >> place.bit & 1u) == 0u) return NoTexel;
-  return page_texel(bits, Uints(frame.v.page_first).v[place.word], place.bit, map.resolution);
+  return page_texel(bits, pool.page_first.v[place.word], place.bit, map.resolution);
 }
 
+/// Bits begin … end-1 of a word; end - begin <= 32.
+uint bits_between(int begin, int end) { return begin < end ? (0xffffffffu >> (32 - (end - begin))) << begin : 0u; }

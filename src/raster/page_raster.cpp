@@ -19,8 +19,7 @@ constexpr uint32_t kBin[] =
 constexpr uint32_t kDrawTiles[] =
 #include "shaders/draw_tiles.comp.inc"
     ;
-constexpr VkDeviceSize kTileBytes = VkDeviceSize(shared::TileTexels) * shared::TileTexels * sizeof(uint32_t);
-constexpr uint32_t kTilesPerPage = (shared::PageSide / shared::TileTexels) * (shared::PageSide / shared::TileTexels);
+constexpr VkDeviceSize kTileBytes = VkDeviceSize(shared::PageSide) * shared::PageSide * sizeof(uint32_t);
 /// Shares of tiles that there is room for, per large triangle on average.
 constexpr uint32_t kNodesPerTriangle = 8;
 }  // namespace
@@ -50,7 +49,7 @@ Result<PageRaster> PageRaster::create(const gpu::PipelineFactory& factory) {
 Result<void> PageRaster::reserve(const gpu::Device& device, gpu::Memory& memory, uint32_t large_triangles,
                                  VkDeviceSize pool_bytes, std::vector<gpu::Buffer>& retired) {
   const uint32_t nodes = std::max(large_triangles, 1u) * kNodesPerTriangle;
-  const VkDeviceSize tiles = pool_bytes / kTileBytes + kTilesPerPage;
+  const VkDeviceSize tiles = pool_bytes / kTileBytes + 1;
   struct Need {
     gpu::Buffer& target;
     VkDeviceSize bytes;
@@ -114,7 +113,8 @@ void PageRaster::record(gpu::Recorder& recorder, const PageWriterInputs& in) {
     pass.write(in.pool);
     pass.read(arguments_, gpu::Access::indirect_read);
     if (in.receiver_depth) pass.read(*in.receiver_depth);
-    push.flags = in.receiver_depth ? shared::TestReceivers : 0;
+    if (in.texel_bits) pass.read(*in.texel_bits);
+    push.flags = (in.receiver_depth ? shared::TestReceivers : 0u) | (in.texel_bits ? shared::TestTexels : 0u);
   };
   {
     gpu::Pass pass = recorder.pass("clear tile heads");

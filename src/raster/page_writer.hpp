@@ -18,6 +18,7 @@ struct PageWriterInputs {
   const gpu::Buffer* counters;  ///< FrameCounters, told of large_triangles; may be null.
   const gpu::Buffer*
       receiver_depth;  ///< With it triangles that no receiver can see are dropped one by one; may be null.
+  const gpu::Buffer* texel_bits;  ///< With it only texels are drawn that lookups of samples read; may be null.
 };
 
 }  // namespace umbrage::raster

@@ -14,18 +14,14 @@ UMB_ASSERT_SIZE(CastPush, 16);
 
 /// Threads that share an item of the page rasteriser, or a queued triangle.
 UMB_CONST uint RasterThreads = 64u;
-/// Texels along the side of a tile, which a workgroup of TileThreads draws: a column of TileRows texels a thread, of which
-/// TileStep at once are skipped or drawn. In long columns few threads fetch each triangle.
-UMB_CONST uint TileTexels = 32u;
-UMB_CONST uint TileRows = 32u;
-UMB_CONST uint TileThreads = TileTexels * TileTexels / TileRows;
+/// Rows of a page that a thread of draw_tiles, which has a column, skips or draws at once.
 UMB_CONST uint TileStep = 8u;
 /// A triangle whose box holds more texels is queued for the tiles.
 UMB_CONST uint QueuedTexels = 512u;
 /// Workgroups along x of an indirect dispatch; the rest go to y.
 UMB_CONST uint MaxGroupsX = 32768u;
 
-/// A queued triangle's share of one tile: edge functions at the tile's first texel, and the next share of the same tile.
+/// A queued triangle's share of one page: edge functions at the tile's first texel, and the next share of the same tile.
 struct TileNode {
   uint triangle;
   uint next;                 // or NoIndex
@@ -35,12 +31,15 @@ struct TileNode {
 };
 UMB_ASSERT_SIZE(TileNode, 36);
 
-/// A tile that has nodes.
+/// A tile, that is a page of PageSide, that has nodes.
 struct RasterTile {
-  uint tile;                 // whose list it is
   uint first_texel;          // in the pool
+  uint looked_up;            // 1: only texels are drawn that lookups of samples read
 };
 UMB_ASSERT_SIZE(RasterTile, 8);
+
+/// The list of a page by its first texel: pages of full side begin at least that far apart.
+UMB_FN uint tile_of_texel(uint first_texel) { return first_texel / (PageSide * PageSide); }
 
 /// Arguments of the indirect dispatches.
 struct RasterArguments {
@@ -76,7 +75,7 @@ struct PageRasterPush {      // plan_dispatches, rasterize_triangles, bin_triang
   uint item_capacity;        // masked items begin there
   uint large_capacity;
   uint node_capacity;
-  uint flags;                // plan_dispatches: PlanItems, …; others: TestReceivers or 0
+  uint flags;                // plan_dispatches: PlanItems, …; others: TestReceivers | TestTexels
 };
 UMB_ASSERT_SIZE(PageRasterPush, 128);
 
@@ -97,6 +96,8 @@ UMB_ASSERT_SIZE(CountNeededPush, 80);
 
 /// Triangles, and tiles of large ones, are drawn only where and in front of what receives (the receiver grid).
 UMB_CONST uint TestReceivers = 1u;
+/// Only texels are drawn that lookups of samples read (FrameRecord::texel_bits).
+UMB_CONST uint TestTexels = 2u;
 UMB_CONST uint PlanItems = 0u;
 UMB_CONST uint PlanTriangles = 1u;
 UMB_CONST uint PlanTiles = 2u;

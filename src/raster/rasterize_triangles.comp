@@ -11,15 +11,15 @@ layout(set = 1, binding = 0) uniform sampler2D masks[];
 #include "raster/draw_block.glsl"
 #include "raster/triangle_setup.glsl"
 
-/// In blocks: pages for narrow triangles, tiles for the others.
+/// Page by page.
 void draw_here(RasterTriangle t, bool narrow, ivec2 first, ivec2 last) {
-  int side = narrow ? int(PageSide) : int(TileTexels);
+  const int side = int(PageSide);
   uint page_side = page_side_of(map.resolution);
-  Uints pool = Uints(frame.v.pool);
+  bool looked_up = draws_looked_up(map);
   ivec2 begin = first / side * side;
   for (ivec2 block = begin; block.y <= last.y;) {
     ivec2 lo = max(block, first);
-    uint origin = page_origin(frame, map, t.view, uvec2(lo));
+    uint origin = page_origin(pool, map, t.view, uvec2(lo));
     if (origin != NoTexel) {
       ivec3 edges;
       vec3 fractions;
@@ -36,7 +36,7 @@ void draw_here(RasterTriangle t, bool narrow, ivec2 first, ivec2 last) {
         start_edges(t, uvec2(block), edges, fractions);
         edges += steps_x(t) * (lo.x - block.x) + steps_y(t) * (lo.y - block.y);
       }
-      draw_block(pool, t, page_side, origin, lo, min(block + side - 1, last), edges, fractions);
+      draw_block(pool, t, page_side, origin, looked_up, lo, min(block + side - 1, last), edges, fractions);
     }
     block.x += side;
     if (block.x > last.x) block = ivec2(begin.x, block.y + side);
@@ -47,7 +47,7 @@ void take_triangle(RasterTriangle t, bool narrow) {
   ivec2 first, last;
   texel_box(t, map.resolution, first, last);
   if (first.x > last.x || first.y > last.y) return;
-  if (push.flags == TestReceivers && !receivers_see(frame, map, t.view, first, last, near_m, t.z_max)) return;
+  if ((push.flags & TestReceivers) != 0u && !receivers_see(pool, map, t.view, first, last, near_m, t.z_max)) return;
   if (map.resolution >= PageSide && (last.x - first.x + 1) * (last.y - first.y + 1) > int(QueuedTexels)) {
     uint place = atomicAdd(Appended(push.appended).v.triangles, 1u);
     if (place < push.large_capacity) {

@@ -1,7 +1,7 @@
 // Work items → triangles on their maps, clipped and in fixed point: a workgroup an item, a thread a triangle. Includer: `masked`,
 // push, take_triangle for each piece of a triangle that may cover texels, end_triangle after its last.
 
-Frame frame;
+Pool pool;
 MapRecord map;
 uint map_index;
 uint batch_index;
@@ -88,7 +88,8 @@ void set_up_item() {
   uint index = group_index();
   if (index >= min(masked ? counts.masked : counts.opaque, push.item_capacity)) return;
   CasterItem item = Items(push.items).v[index + (masked ? push.item_capacity : 0u)];
-  frame = Frame(push.frame);
+  Frame frame = Frame(push.frame);
+  pool = pool_of(frame);
   map_index = item.map;
   map = Maps(frame.v.maps).v[item.map];
   CasterRecord caster = Casters(push.casters).v[item.caster];

@@ -24,13 +24,13 @@ void main() {
     map.first_word = place.y;
     map.words = 0u;
     Frame frame = Frame(push.frame);
-    uint origin = page_origin(frame, map, 0u, texel);
+    Pool pool = pool_of(frame);
+    uint origin = page_origin(pool, map, 0u, texel);
     if (origin != NoTexel) {
-      Uints pool = Uints(frame.v.pool);
       uint at = origin + texel_in_page(texel, place.z);
       uint key = floatBitsToUint(gl_FragCoord.z);
       // Most of what is drawn lies behind something: a look costs less than an atomic.
-      if (key > pool.v[at]) atomicMax(pool.v[at], key);
+      if (key > pool.texels.v[at]) atomicMax(pool.texels.v[at], key);
     }
   }
 }

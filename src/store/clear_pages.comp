@@ -1,5 +1,5 @@
 #version 460
-// Empties what of the pool this frame's pages use: 0 is farther than everything. A workgroup per ClearUnits.
+// Empties what of the pool this frame's pages use: 0 is farther than everything, and nobody looks. A workgroup per ClearUnits.
 #extension GL_GOOGLE_include_directive : require
 #include "maps/map_buffers.glsl"
 layout(local_size_x = 64) in;
@@ -11,5 +11,7 @@ void main() {
   uint units = Counters(push.counters).counters.pool_units;
   uint end = min((group_index() + 1u) * quads, units * (PoolUnit / 4u));
   Quads pool = Quads(Frame(push.frame).record.pool);
+  Uints bits = Uints(Frame(push.frame).record.texel_bits);
+  for (uint i = group_index() * ClearUnits + gl_LocalInvocationIndex; i < min((group_index() + 1u) * ClearUnits, units); i += 64u) bits.v[i] = 0u;
   for (uint i = group_index() * quads + gl_LocalInvocationIndex; i < end; i += 64u) pool.v[i] = uvec4(0u);
 }

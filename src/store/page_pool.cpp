@@ -81,6 +81,9 @@ Result<PagePool> PagePool::create(const gpu::PipelineFactory& factory) {
 Result<void> PagePool::reserve(const gpu::Device& device, gpu::Memory& memory, uint64_t budget_bytes,
                                uint32_t word_capacity, std::vector<gpu::Buffer>& retired) {
   if (auto ok = gpu::grow(pool_, device, memory, budget_bytes, "page pool", retired); !ok) return ok;
+  if (auto ok = gpu::grow(texel_bits_, device, memory, budget_bytes / kUnitBytes * sizeof(uint32_t), "texel bits", retired);
+      !ok)
+    return ok;
   if (auto ok = gpu::grow(total_, device, memory, sizeof(uint32_t), "units in use", retired); !ok) return ok;
   return scan_.reserve(device, memory, word_capacity, retired);
 }
@@ -99,7 +102,7 @@ void PagePool::record(gpu::Recorder& recorder, const maps::Maps& maps, const gpu
   gpu::Pass pass = recorder.pass("clear pages");
   const shared::MapsPush push{.frame = pass.read(frame), .counters = pass.read(counters)};
   pass.read(counters, gpu::Access::indirect_read);
-  pass.write(pool_);
+  pass.write(pool_), pass.write(texel_bits_);
   pass.dispatch_indirect(clear_, push, counters, offsetof(shared::FrameCounters, clear_groups));
 }
 

@@ -1,4 +1,4 @@
-// The default store: one pool of a fixed budget, a software page table, everything decided on the device. A page is 64×64
+// The default store: one pool of a fixed budget, a software page table, everything decided on the device. A page is 32×32
 // texels of 32 bits, or less for coarse maps. Pages lie in the pool in the order of their words: by light, map, view and row.
 #pragma once
 #include "gpu/prefix_sum.hpp"
@@ -33,16 +33,21 @@ class PagePool {
   static Result<PagePool> create(const gpu::PipelineFactory&);
   Result<void> reserve(const gpu::Device&, gpu::Memory&, uint64_t budget_bytes, uint32_t word_capacity,
                        std::vector<gpu::Buffer>& retired);
-  void fill(shared::FrameRecord& frame) const { frame.pool = pool_.address(); }
+  void fill(shared::FrameRecord& frame) const {
+    frame.pool = pool_.address();
+    frame.texel_bits = texel_bits_.address();
+  }
   /// Places for the marked pages (they fit), and those cleared.
   void record(gpu::Recorder&, const maps::Maps&, const gpu::Buffer& frame, const gpu::Buffer& counters);
   const gpu::Buffer& pool() const { return pool_; }
+  /// A bit a texel, cleared with its page: is it looked up? Maps::mark_texels() says.
+  const gpu::Buffer& texel_bits() const { return texel_bits_; }
   uint32_t capacity_units() const;
 
  private:
   gpu::Pipeline clear_;
   gpu::PrefixSum scan_;
-  gpu::Buffer pool_, total_;
+  gpu::Buffer pool_, texel_bits_, total_;
 };
 
 }  // namespace umbrage::store
