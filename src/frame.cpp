@@ -22,8 +22,9 @@ void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, cons
   if (scene.light_slots() == 0 || plan.store == Store::fixed_cubes) return;
 
   // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
-  const maps::Maps::Inputs receivers{scene,         clusters,    block,        counters, views.buffer(), plan.settings, plan.seen(),
-                                     backing(plan.store), plan.all_lights};
+  const maps::Maps::Inputs receivers{scene,          clusters,      block,       counters,
+                                     views.buffer(), plan.settings, plan.seen(), backing(plan.store),
+                                     plan.all_lights};
   maps.record(recorder, receivers);
 
   // Marked pages → places in the pool, cleared; or a list for the host, which binds them (O18).
@@ -96,7 +97,8 @@ raster::PageWriterInputs Frame::page_inputs(const FramePlan& plan) const {
 }
 
 bool Frame::draws_samples_only(const FramePlan& plan) {
-  return plan.store == Store::page_pool && plan.settings.writer != Writer::fragments && plan.settings.receiver_boxes == ReceiverBoxes::samples;
+  return plan.store == Store::page_pool && plan.settings.writer != Writer::fragments &&
+         plan.settings.receiver_boxes == ReceiverBoxes::samples;
 }
 
 void Frame::record_layers(gpu::Recorder& recorder, const FramePlan& plan, const culling::MapCulling::Inputs& cull) {
@@ -142,6 +144,7 @@ void Frame::publish(gpu::Recorder& recorder, const FramePlan& plan) {
   if (plan.store != Store::fixed_cubes)
     for (const gpu::Buffer* buffer : maps.published()) published_.push_back(buffer);
   if (plan.store == Store::page_pool) published_.push_back(&pool.pool());
+  if (draws_samples_only(plan)) published_.push_back(&pool.texel_bits());
   if (plan.cascades)
     for (const gpu::Buffer* buffer : cascades.published()) published_.push_back(buffer);
   published_images_.assign({&store.atlas()});

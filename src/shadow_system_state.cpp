@@ -416,6 +416,7 @@ void ShadowSystem::State::fill_block(FrameBlock& block, std::span<const shared::
   record.cascades = cascade_lights.empty() ? 0 : frame->cascades.table().address();
   record.store = shader_store();
   if (settings.store == Store::page_pool) frame->pool.fill(record);
+  if (!Frame::draws_samples_only(plan)) record.texel_bits = 0;
   if (has_virtual_maps() && texel_bytes() == sizeof(uint16_t)) record.depth_step = 1.0f / 65535.0f;
   const std::vector<shared::MapImage>& images = frame->map_images(settings.store).layout().images;
   std::copy(images.begin(), images.end(), block.images.begin());

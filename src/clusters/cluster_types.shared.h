@@ -74,7 +74,7 @@ struct FrameRecord {
   uint64_t page_bits;        // words: which pages there are
   uint64_t page_first;       // words: where they begin in the pool, in PoolUnit texels
   uint64_t pool;             // depth keys
-  uint64_t texel_bits;       // a bit a texel of the pool: lookups of samples read it (pages of PageSide; ReceiverBoxes::samples)
+  uint64_t texel_bits;       // of pages of PageSide a bit a texel (texel_word): lookups of samples read it; or 0
   uint64_t projection;       // receivers: ProjectionSide words a view
   uint64_t receiver_depth;   // bits of the farthest receiver depth, receiver_grid² a view
   uint receiver_grid;        // cells along a view's side: 1 (PMCD), 2 … 32

@@ -85,7 +85,8 @@ const auto kFields = std::to_array<Field>({
      UMB_FIELD(frame.facing_away),
      kFacingAway},
     {{"receiver_boxes", "clusters|blocks|samples",
-      "what marks pages and receivers: boxes of clusters (O3, O7), of their samples in every 4x4 pixels, or these and each sample's texels"},
+      "what marks pages and receivers: boxes of clusters (O3, O7), of their samples in every 4x4 pixels, or these and "
+      "each sample's texels"},
      UMB_FIELD(frame.receiver_boxes),
      kReceiverBoxes},
     {{"maps_per_light", "1..16", "maps of different resolution that a light may have (O8)"},

@@ -14,12 +14,25 @@ UMB_FN uint find_page(Frame frame, Map map, uint view, uint page) {
   return (bits >> bit & 1u) != 0u ? first : NoIndex;
 }
 
+/// Counts a tap on a texel that mark_texels did not foresee: nobody drew it.
+UMB_FN void check_texel(Frame frame, Map map, uvec2 texel, uint first) {
+#ifdef UMBRAGE_CHECK_TEXELS   // needs UMBRAGE_COUNT_TAPS
+  UmbrageFrames f = UmbrageFrames(frame.address);
+  if (f.v[0].texel_bits == 0ul || map.whole != 0u || map.resolution < PageSide) return;
+  uint row = UmbrageUints(f.v[0].texel_bits).v[texel_word(first, texel.y % PageSide)];
+  if ((row >> texel.x % PageSide & 1u) == 0u) atomicAdd(UmbrageTapCounter(f.v[0].tap_counts).taps.unbacked, 1u);
+#endif
+}
+
 /// A texel of a page, 0 where there is none. first: as find_page() says.
 UMB_FN float texel_of_page(Frame frame, Map map, uint view, uvec2 texel, uint first) {
   float depth = 0.0f;
   if (store_of(frame) == StorePool) {
     uint place = first == NoIndex ? 0u : first + texel_in_page(texel, map.resolution);   // no branch: the pool has a first texel
-    if (first != NoIndex) { UMBRAGE_VISIT_TEXEL(place); }
+    if (first != NoIndex) {
+      UMBRAGE_VISIT_TEXEL(place);
+      check_texel(frame, map, texel, first);
+    }
     float read = uintBitsToFloat(UmbrageUints(frame.pool).v[place]);
     depth = first == NoIndex ? 0.0f : read;
   }

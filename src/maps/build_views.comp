@@ -34,7 +34,7 @@ void main() {
   if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
   FrameRecord frame = Frame(push.frame).record;
   // In the page pool a view serves maps of every resolution: its guard is that of one page.
-  uint guarded = frame.store == StoreAtlas ? light.resolution : PageSide;
+  uint guarded = frame.store == StoreAtlas ? light.resolution : GuardedSide;
   Box box = scene_box();
   for (uint i = 0u; i < light.view_count; ++i) {
     ShadowView view;

@@ -25,7 +25,7 @@ void main() {
   Uints(frame.page_first).v[word] = units;
   if (pages == 0u) return;   // most: that few atomics are cheaper than barriers
   atomicAdd(Counters(push.counters).counters.pages, pages);
-  // Saturates: what is beyond 2^31 units (275 GB) is too much whatever it is.
+  // Saturates: what is beyond 2^31 units (137 GB) is too much whatever it is.
   if (atomicAdd(Counters(push.counters).counters.pool_units, units) > 0x80000000u)
     atomicMin(Counters(push.counters).counters.pool_units, 0x80000000u);
 }

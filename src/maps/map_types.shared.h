@@ -9,8 +9,12 @@ UMB_NAMESPACE_BEGIN
 
 /// Texels along a page's side: a row has as many as a word has bits. Maps below it are one page of their own side a view.
 UMB_CONST uint PageSide = 32u;
-/// Places in the pool are counted in units of so many texels: a row of a page.
-UMB_CONST uint PoolUnit = 32u;
+/// Views of spots reach beyond the cone by the filter of a map of so many texels a side.
+UMB_CONST uint GuardedSide = 64u;
+/// O13: hardware-sparse maps below so many texels a side lie in ordinary images.
+UMB_CONST uint LeastSparseSide = 64u;
+/// Places in the pool are counted in units of so many texels.
+UMB_CONST uint PoolUnit = 16u;
 /// Resolutions: powers of two 2^MinLevel … 2^MaxLevel (levels), or any multiple of the page (exact).
 UMB_CONST uint MinLevel = 2u;
 UMB_CONST uint MaxLevel = 13u;
@@ -66,7 +70,7 @@ UMB_FN uint page_words_of(uint pages) { return (pages * pages + 31u) / 32u; }
 /// Pool units of one page of a map.
 UMB_FN uint page_units_of(uint resolution) {
   uint side = page_side_of(resolution);
-  return (side * side + PoolUnit - 1u) / PoolUnit;
+  return side * side / PoolUnit;
 }
 
 /// Of a grid over a view, the cells that texels first … last touch.
@@ -106,6 +110,9 @@ UMB_FN PagePlace page_place(MapRecord map, uint view, uvec2 texel) {
 UMB_FN uint page_texel(uint bits, uint first, uint bit, uint resolution) {
   return (first + uint(bitCount(bits & ((1u << bit) - 1u))) * page_units_of(resolution)) * PoolUnit;
 }
+
+/// The word of texel_bits that has a row of a page of PageSide: its rows are fewer than its units. first: of the page, in the pool.
+UMB_FN uint texel_word(uint first, uint row) { return first / PoolUnit + row; }
 
 /// A texel within its page.
 UMB_FN uint texel_in_page(uvec2 texel, uint resolution) {

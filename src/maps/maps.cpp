@@ -256,8 +256,8 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
 void Maps::mark_blocks(gpu::Recorder& recorder, const Inputs& in) {
   gpu::Pass pass = recorder.pass("mark blocks");
   shared::MarkSamplesPush push{.frame = pass.read(in.frame),
-                              .counters = pass.read(in.counters),
-                              .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
+                               .counters = pass.read(in.counters),
+                               .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
   pass.read(in.counters, gpu::Access::indirect_read), pass.read(in.scene.light_buffer()), pass.read(in.views);
   pass.read(in.clusters.cells()), pass.read(in.clusters.lists()), pass.read(pair_maps_);
   pass.write(maps_), pass.write(page_bits_), pass.write(projection_), pass.write(receiver_depth_);

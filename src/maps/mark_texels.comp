@@ -24,7 +24,7 @@ void mark_rect(Pages pages, MapRecord map, uint view, uvec2 first, uvec2 last) {
       uvec2 lo = max(first, page * PageSide) - page * PageSide;
       uvec2 hi = min(last - page * PageSide, uvec2(PageSide - 1u));
       uint columns = (0xffffffffu >> (31u - (hi.x - lo.x))) << lo.x;
-      uint row = page_texel(bits, pages.first.v[place.word], place.bit, map.resolution) / PageSide;
+      uint row = texel_word(page_texel(bits, pages.first.v[place.word], place.bit, map.resolution), 0u);
       for (uint y = row + lo.y; y <= row + hi.y; ++y)
         if ((pages.texels.v[y] & columns) != columns) atomicOr(pages.texels.v[y], columns);
     }

@@ -5,7 +5,7 @@ uvec2 blocks_of(uint resolution) { return (uvec2(resolution) + backing() - 1u) /
 
 /// Pool units of a block; of maps below a page, which are one block, only their own texels, or none.
 uint block_units(uint resolution) {
-  if (resolution < PageSide) return has_flag(MapsSparse) ? 0u : page_units_of(resolution);
+  if (resolution < least_backed(backing().x)) return has_flag(MapsSparse) ? 0u : page_units_of(resolution);
   return backing().x * backing().y / PoolUnit;
 }
 

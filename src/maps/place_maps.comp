@@ -102,7 +102,7 @@ void count_texels() {
     LightMaps own = light_maps.v[Uints(push.priority).v[i]];
     for (uint m = own.first; m < own.first + own.count; ++m) {
       MapRecord map = maps.v[m];
-      units += map.view_count * ((uvec2(map.resolution, map.asked) * uvec2(map.resolution, map.asked) + PoolUnit - 1u) / PoolUnit);
+      units += map.view_count * (uvec2(map.resolution, map.asked) * uvec2(map.resolution, map.asked) / PoolUnit);
     }
   }
   uint placed = sum_units(units.x);

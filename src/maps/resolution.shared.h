@@ -26,16 +26,19 @@ UMB_FN uint level_of_resolution(float resolution) {
   return max(floor_to_uint(level, MaxLevel), MinLevel);
 }
 
-/// Whole blocks of what the store backs at once (O13); smaller maps than a page stay as they are.
-UMB_FN uint backed_resolution(uint texels, uint block) { return texels >= PageSide ? (texels + block - 1u) / block * block : texels; }
+/// The least side of maps of which the store backs whole blocks.
+UMB_FN uint least_backed(uint block) { return block == PageSide ? PageSide : LeastSparseSide; }
 
-/// The paper's R as the exact layout allocates it: whole blocks, or below one page a power of two.
+/// Whole blocks of what the store backs at once (O13); smaller maps stay as they are.
+UMB_FN uint backed_resolution(uint texels, uint block) { return texels >= least_backed(block) ? (texels + block - 1u) / block * block : texels; }
+
+/// The paper's R as the exact layout allocates it: whole blocks, or below what it backs a power of two.
 UMB_FN uint exact_resolution(float resolution, uint block) {
   uint texels = max(floor_to_uint(ceil(resolution), 1u << MaxLevel), 1u);
-  if (texels >= PageSide) return backed_resolution(texels, block);
+  if (texels >= least_backed(block)) return backed_resolution(texels, block);
   uint side = 1u << MinLevel;
   while (side < texels) side *= 2u;
-  return backed_resolution(side, block);   // 33 … 63 texels make 64
+  return backed_resolution(side, block);   // 17 … 31 texels make 32
 }
 
 /// A map's place among its light's, finest first: its level, or its bucket of the histogram (O8, E8). `bit` numbers the

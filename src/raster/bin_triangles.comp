@@ -29,7 +29,7 @@ float nearest_key(RasterTriangle t, ivec3 edges, vec3 fractions, ivec2 size) {
 bool any_looked_up(Pool pool, uint origin, ivec2 first, ivec2 last) {
   uint columns = bits_between(first.x, last.x + 1);
   for (int y = first.y; y <= last.y; ++y)
-    if ((pool.texel_bits.v[origin / PageSide + uint(y)] & columns) != 0u) return true;
+    if ((pool.texel_bits.v[texel_word(origin, uint(y))] & columns) != 0u) return true;
   return false;
 }
 

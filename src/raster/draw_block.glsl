@@ -34,7 +34,7 @@ void draw_block(Pool pool, RasterTriangle t, uint page_side, uint origin, bool l
   uint row = uint(first.y) % PageSide;
   for (int y = first.y; y <= last.y; ++y) {
     uint wanted = columns;
-    if (looked_up) wanted &= pool.texel_bits.v[origin / PageSide + row];
+    if (looked_up) wanted &= pool.texel_bits.v[texel_word(origin, row)];
     if (wanted != 0u) {
       // An edge that rises is passed at -edge / step, one that falls is left there.
       vec3 crossing = vec3(edges) * texels_per_unit;

@@ -19,7 +19,7 @@ const uint Closed = 0x7f800000u;
 uint wanted_rows(Pool pool, RasterTile tile, uint column) {
   if (tile.looked_up == 0u) return 0xffffffffu;
   uint rows = 0u;
-  for (uint row = 0u; row < PageSide; ++row) rows |= (pool.texel_bits.v[tile.first_texel / PageSide + row] >> column & 1u) << row;
+  for (uint row = 0u; row < PageSide; ++row) rows |= (pool.texel_bits.v[texel_word(tile.first_texel, row)] >> column & 1u) << row;
   return rows;
 }
 

@@ -15,7 +15,7 @@ struct Pool {
   Uints texels;            // depth keys
   Uints page_bits;
   Uints page_first;
-  Uints texel_bits;        // which texels are looked up: a row of a page of PageSide a word
+  Uints texel_bits;        // which texels are looked up (texel_word)
   Uints receiver_depth;
   uint receiver_grid;
 };

@@ -16,9 +16,10 @@ struct PageWriterInputs {
   const gpu::Buffer& counts;  ///< DrawCounts; items beyond item_capacity are left out.
   uint32_t item_capacity;
   const gpu::Buffer* counters;  ///< FrameCounters, told of large_triangles; may be null.
-  const gpu::Buffer*
-      receiver_depth;  ///< With it triangles that no receiver can see are dropped one by one; may be null.
-  const gpu::Buffer* texel_bits;  ///< With it only texels are drawn that lookups of samples read; may be null.
+  /// With it triangles that no receiver can see are dropped one by one; may be null.
+  const gpu::Buffer* receiver_depth;
+  /// With it only texels are drawn that lookups of samples read (FrameRecord::texel_bits); may be null.
+  const gpu::Buffer* texel_bits = nullptr;
 };
 
 }  // namespace umbrage::raster

@@ -12,6 +12,7 @@ void main() {
   uint end = min((group_index() + 1u) * quads, units * (PoolUnit / 4u));
   Quads pool = Quads(Frame(push.frame).record.pool);
   Uints bits = Uints(Frame(push.frame).record.texel_bits);
-  for (uint i = group_index() * ClearUnits + gl_LocalInvocationIndex; i < min((group_index() + 1u) * ClearUnits, units); i += 64u) bits.v[i] = 0u;
+  bool has_bits = Frame(push.frame).record.texel_bits != 0ul;
+  for (uint i = group_index() * ClearUnits + gl_LocalInvocationIndex; has_bits && i < min((group_index() + 1u) * ClearUnits, units); i += 64u) bits.v[i] = 0u;
   for (uint i = group_index() * quads + gl_LocalInvocationIndex; i < end; i += 64u) pool.v[i] = uvec4(0u);
 }

@@ -83,7 +83,7 @@ Result<void> MapImages::reserve(const gpu::Device& device, gpu::Memory& memory, 
     gpu::ImageDesc desc = like;
     desc.width = desc.height = image.side;
     desc.layers = image.layers;
-    desc.sparse = like.sparse && image.side >= shared::PageSide;
+    desc.sparse = like.sparse && image.side >= shared::LeastSparseSide;
     auto one = gpu::Image::create(device, memory, desc, "shadow maps");
     if (!one) return one.error();
     made.push_back(std::move(*one));

@@ -81,7 +81,8 @@ Result<PagePool> PagePool::create(const gpu::PipelineFactory& factory) {
 Result<void> PagePool::reserve(const gpu::Device& device, gpu::Memory& memory, uint64_t budget_bytes,
                                uint32_t word_capacity, std::vector<gpu::Buffer>& retired) {
   if (auto ok = gpu::grow(pool_, device, memory, budget_bytes, "page pool", retired); !ok) return ok;
-  if (auto ok = gpu::grow(texel_bits_, device, memory, budget_bytes / kUnitBytes * sizeof(uint32_t), "texel bits", retired);
+  if (auto ok =
+          gpu::grow(texel_bits_, device, memory, budget_bytes / kUnitBytes * sizeof(uint32_t), "texel bits", retired);
       !ok)
     return ok;
   if (auto ok = gpu::grow(total_, device, memory, sizeof(uint32_t), "units in use", retired); !ok) return ok;

@@ -8,8 +8,8 @@
 namespace umbrage::store {
 
 namespace {
-/// Maps below a page of the page table (64 texels) are ordinary images, as in the paper; how coarse depends on the memory.
-constexpr uint32_t kOrdinarySide = shared::PageSide / 2;
+/// Maps below 64 texels are ordinary images, as in the paper; how coarse depends on the memory.
+constexpr uint32_t kOrdinarySide = shared::LeastSparseSide / 2;
 
 Error refused(const gpu::Device& device, std::string why) {
   return {ErrorCode::unsupported, "store=hardware_sparse on " + device.name() + ": " + std::move(why)};
@@ -29,7 +29,7 @@ Result<SparseForm> check_form(const gpu::Device& device, bool is_attachment) {
   if (!page) return refused(device, std::string("it has no sparse ") + what);
   form.page = {page->width, page->height};
   const bool fits = std::has_single_bit(page->width) && std::has_single_bit(page->height) &&
-                    page->width >= page->height && page->height >= shared::PageSide &&
+                    page->width >= page->height && page->height >= shared::LeastSparseSide &&
                     page->width * page->height * form.texel_bytes() == kSparsePageBytes;
   if (!fits)
     return refused(device, std::string("pages of its ") + what + " are " + std::to_string(page->width) + "x" +

@@ -61,6 +61,7 @@ void PageRig::lay_out(std::mt19937& engine) {
     record.pages = shared::pages_of(map.resolution);
     record.words = shared::page_words_of(record.pages);
     record.first_word = static_cast<uint32_t>(bits.size());
+    record.whole = map.whole;
     for (uint32_t view = 0; view < record.view_count; ++view) {
       for (uint32_t word = 0; word < record.words; ++word) {
         uint32_t marks = 0;
@@ -87,13 +88,12 @@ void PageRig::lay_out(std::mt19937& engine) {
   page_bits_ = gpu_.upload(bits);
   page_first_ = gpu_.upload(first);
   pool_ = gpu_.buffer(VkDeviceSize(units) * shared::PoolUnit * sizeof(uint32_t), gpu::MemoryKind::device, "pool");
-  shared::FrameRecord record{};
-  record.views = views_.address();
-  record.maps = map_buffer_.address();
-  record.page_bits = page_bits_.address();
-  record.page_first = page_first_.address();
-  record.pool = pool_.address();
-  frame_ = gpu_.upload(&record, sizeof record);
+  record_.views = views_.address();
+  record_.maps = map_buffer_.address();
+  record_.page_bits = page_bits_.address();
+  record_.page_first = page_first_.address();
+  record_.pool = pool_.address();
+  frame_ = gpu_.upload(&record_, sizeof record_);
 }
 
 void PageRig::list_items(uint32_t seed, bool by_face) {
@@ -123,8 +123,30 @@ void PageRig::list_items(uint32_t seed, bool by_face) {
 }
 
 raster::PageWriterInputs PageRig::inputs() const {
-  return {scene_, frame_,       views_,  map_buffer_, page_bits_, page_first_,
-          pool_,  item_buffer_, counts_, capacity_,   nullptr,    nullptr};
+  return {scene_,
+          frame_,
+          views_,
+          map_buffer_,
+          page_bits_,
+          page_first_,
+          pool_,
+          item_buffer_,
+          counts_,
+          capacity_,
+          nullptr,
+          nullptr,
+          texel_bits_.empty() ? nullptr : &looked_up_};
+}
+
+void PageRig::look_up(double share, uint32_t seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> chance(0, 1);
+  texel_bits_.assign(pool_.size() / sizeof(uint32_t) / shared::PoolUnit, 0);
+  for (uint32_t& word : texel_bits_)
+    for (uint32_t bit = 0; bit < 32; ++bit) word |= uint32_t(chance(engine) < share) << bit;
+  looked_up_ = gpu_.upload(texel_bits_);
+  record_.texel_bits = looked_up_.address();
+  frame_ = gpu_.upload(&record_, sizeof record_);
 }
 
 uint32_t PageRig::max_resolution() const {

@@ -16,6 +16,7 @@ struct PageMap {
   uint32_t resolution = 128;
   std::vector<shared::ShadowView> views;
   double marked = 1;
+  bool whole = false;  ///< Drawn whatever is looked up.
 };
 PageMap cube_map(const glm::vec3& origin, float near_m, uint32_t resolution, double marked = 1);
 PageMap spot_map(const glm::vec3& origin, const glm::vec3& direction, float cone_rad, float near_m, uint32_t resolution,
@@ -29,6 +30,11 @@ class PageRig {
 
   /// Items of every caster in every map and view, shuffled; `by_face`: an item for each view.
   void list_items(uint32_t seed, bool by_face);
+  /// From now on writers draw, of this share of the texels, those alone; in maps of whole pages that are not `whole`.
+  void look_up(double share, uint32_t seed);
+  const std::vector<uint32_t>& texel_bits() const { return texel_bits_; }
+  /// Does the writer draw every texel of the map, whatever is looked up?
+  bool draws_all(uint32_t map) const { return records_[map].whole != 0 || maps_[map].resolution < shared::PageSide; }
   using Write = std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>;
   void clear();
   void run(const Write&, gpu::HazardLog* = nullptr);
@@ -61,7 +67,9 @@ class PageRig {
   gpu::RetireQueue retired_;
   std::vector<shared::CasterItem> items_[2];  // opaque, masked
   uint32_t capacity_ = 0;
-  gpu::Buffer frame_, views_, map_buffer_, page_bits_, page_first_, pool_, item_buffer_, counts_;
+  shared::FrameRecord record_{};
+  std::vector<uint32_t> texel_bits_;
+  gpu::Buffer looked_up_, frame_, views_, map_buffer_, page_bits_, page_first_, pool_, item_buffer_, counts_;
 };
 
 }  // namespace umbrage::test

@@ -303,7 +303,7 @@ struct MarkedView {
 
 void expect_marks(const Check& check) {
   const DeviceMaps& maps = check.maps;
-  const bool in_blocks = check.settings.receiver_boxes == ReceiverBoxes::blocks;
+  const bool in_blocks = check.settings.receiver_boxes != ReceiverBoxes::clusters;
   const auto blocks = in_blocks ? blocks_of_clusters(check) : std::vector<std::vector<reference::ReceiverBlock>>();
   std::vector<std::vector<uint32_t>> clusters_of_map(maps.maps.size());
   for (uint32_t pair = 0; pair < maps.pair_maps.size(); ++pair)

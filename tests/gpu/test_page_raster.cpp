@@ -216,6 +216,35 @@ TEST_F(PageRasterTest, GivesTheSameBitsHoweverItIsFed) {
   EXPECT_EQ(draw(rig, 100000), plain) << "in another order, face by face";
 }
 
+TEST_F(PageRasterTest, DrawsOnlyTexelsThatAreLookedUp) {
+  std::vector<PageMap> maps{cube_map({0, 0, 0}, 0.05f, 512, 0.8), cube_map({0.4f, 1, 0}, 0.1f, 32),
+                            cube_map({0.4f, 1, 0}, 0.1f, 16), spot_map({0, 3, 0}, {0, -1, 0.1f}, 0.8f, 0.1f, 1024, 0.7),
+                            cube_map({0, 0, 0}, 0.05f, 256)};
+  maps.back().whole = true;
+  TestScene scene = spiteful_scene(300, 9);
+  scene.meshes.push_back(masked_mesh());
+  scene.instances.push_back({.mesh = 3, .world_from_mesh = affine(glm::mat3(3), {0.5f, 1.2f, -2.5f})});
+  PageRig rig(gpu(), scene, maps, 9);
+  auto expected = draw(rig, 100000);
+  for (const double share : {0.02, 0.5}) {
+    rig.look_up(share, 5);
+    uint64_t left_out = 0;
+    for (const PageRig::Page& page : rig.pages()) {
+      for (uint32_t i = page.pool_texel; !rig.draws_all(page.map) && i < page.pool_texel + page.side * page.side; ++i) {
+        const uint32_t texel = i - page.pool_texel, row = shared::texel_word(page.pool_texel, texel / page.side);
+        if (rig.texel_bits()[row] >> texel % page.side & 1) continue;
+        left_out += expected[i] != 0;
+        expected[i] = 0;
+      }
+    }
+    EXPECT_GT(left_out, expected.size() / 10);
+    EXPECT_EQ(draw(rig, 100000), expected) << share;
+    EXPECT_EQ(draw(rig, 0), expected) << "without a queue";
+    EXPECT_EQ(draw(rig, 70), expected) << "with lists that overflow";
+    expected = (rig.look_up(1, 5), draw(rig, 100000));
+  }
+}
+
 /// Texels that only one of two pools has, and those whose depths differ by more than a thousandth: on surfaces seen edge-on, where
 /// vertices snap apart.
 struct Difference {

@@ -183,8 +183,8 @@ TEST_F(HardwareSparse, RoundsResolutionsUpToPages) {
     const DeviceMaps maps(rig);
     for (const shared::MapRecord& map : maps.maps) {
       EXPECT_EQ(map.resolution, map.asked);
-      ++(map.resolution < shared::PageSide ? small : whole);
-      EXPECT_TRUE(map.resolution < shared::PageSide || map.resolution % page == 0) << map.resolution;
+      ++(map.resolution < shared::LeastSparseSide ? small : whole);
+      EXPECT_TRUE(map.resolution < shared::LeastSparseSide || map.resolution % page == 0) << map.resolution;
     }
     for (size_t pair = 0; pair < maps.pair_maps.size(); ++pair)
       if (maps.pair_maps[pair] != shared::NoIndex) {
@@ -201,7 +201,7 @@ TEST_F(HardwareSparse, RoundsResolutionsUpToPages) {
 std::set<std::array<uint32_t, 4>> pages_of(const DeviceMaps& maps, const glm::uvec2& page) {
   std::set<std::array<uint32_t, 4>> out;
   for (const shared::MapRecord& map : maps.maps) {
-    if (map.resolution < shared::PageSide) continue;
+    if (map.resolution < shared::LeastSparseSide) continue;
     for (uint32_t view = 0; view < map.view_count; ++view)
       for (uint32_t y = 0; y < map.resolution; y += shared::PageSide)
         for (uint32_t x = 0; x < map.resolution; x += shared::PageSide) {
@@ -241,7 +241,7 @@ TEST_F(HardwareSparse, WritesNothingWhereNothingIsBound) {
   LayerReader reader(rig);
   size_t resident = 0, absent = 0, wrong_codes = 0, written = 0;
   for (const shared::MapRecord& map : maps.maps) {
-    if (map.resolution < shared::PageSide) continue;
+    if (map.resolution < shared::LeastSparseSide) continue;
     for (uint32_t view = 0; view < map.view_count; ++view) {
       const std::vector<Texel> texels = reader.read(map.image, map.layer + view, map.resolution);
       for (uint32_t y = 0; y < map.resolution; ++y)

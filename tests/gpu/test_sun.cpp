@@ -58,9 +58,10 @@ Pages pages_of(PairRig& rig) {
       const uint32_t word = map.first_word + page / 32, bits = maps.page_bits[word];
       if ((bits >> page % 32 & 1) == 0) continue;
       const uint32_t first = shared::page_texel(bits, maps.page_first[word], page % 32, map.resolution);
-      const int x = int(window.first.x) / 64 + int(page % map.pages),
-                y = int(window.first.y) / 64 + int(page / map.pages);
-      pages[{map.light, suns.place(map), x, y}] = {pool.begin() + first, pool.begin() + first + 64 * 64};
+      const int x = int(window.first.x) / int(shared::PageSide) + int(page % map.pages),
+                y = int(window.first.y) / int(shared::PageSide) + int(page / map.pages);
+      pages[{map.light, suns.place(map), x, y}] = {pool.begin() + first,
+                                                   pool.begin() + first + shared::PageSide * shared::PageSide};
     }
   }
   return pages;
@@ -94,7 +95,10 @@ TEST_F(Sun, TexelsStayWhereTheyAreWhenTheCameraMoves) {
   const std::vector<LightDesc> suns{sun({0.4f, -1, 0.3f}), sun({-0.9f, -0.35f, 0.1f})};
   for (const Writer writer : {Writer::compute, Writer::fragments}) {
     SCOPED_TRACE(writer == Writer::compute ? "compute" : "fragments");
-    const FrameSettings settings{.caster_culling = CasterCulling::view_mask, .writer = writer, .max_resolution = 2048};
+    const FrameSettings settings{.receiver_boxes = ReceiverBoxes::blocks,
+                                 .caster_culling = CasterCulling::view_mask,
+                                 .writer = writer,
+                                 .max_resolution = 2048};
     PairRig rig(gpu(), {}, sunlit_scene(suns, camera_from(eye, target)));
     rig.settle(settings);
     const Pages before = pages_of(rig);

@@ -13,6 +13,7 @@ void visit_texel(uint texel) {
 }
 #define UMBRAGE_VISIT_TEXEL(texel) visit_texel(texel)
 #define UMBRAGE_COUNT_TAPS
+#define UMBRAGE_CHECK_TEXELS
 #include "lighting.glsl"
 
 struct Receiver {

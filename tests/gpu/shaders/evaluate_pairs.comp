@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define UMBRAGE_SET 0
 #define UMBRAGE_COUNT_TAPS
+#define UMBRAGE_CHECK_TEXELS
 #include "umbrage/shaders/umbrage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

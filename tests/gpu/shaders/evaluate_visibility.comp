@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define UMBRAGE_SET 0
 #define UMBRAGE_COUNT_TAPS
+#define UMBRAGE_CHECK_TEXELS
 #include "umbrage/shaders/umbrage.glsl"
 
 layout(local_size_x = 64) in;
