@@ -48,8 +48,8 @@ UMB_FN float visibility_mapped(Frame frame, Light light, vec3 position_ws, vec3 
 }
 
 /// How much of a light, umbrage_light(frame, cluster, i), reaches a point: 0 nothing, 1 all. normal_ws: the surface's geometric
-/// normal, unit, on the side that is seen. Meaningful where normal · light > 0 and the light is in range; lights that cast no
-/// shadow give 1, surfaces that the cluster's normals show to face away give 0.
+/// normal, unit, on the side that is seen. Meaningful where normal · light > 0 and the light is in range, a spot's cone
+/// included; lights that cast no shadow give 1, surfaces that the cluster's normals show to face away give 0.
 float umbrage_visibility(Frame frame, Light light, vec3 position_ws, vec3 normal_ws) {
   float visibility = 1.0f;
   uint cascade = NoIndex;

@@ -44,6 +44,8 @@ void main() {
     UmbrageLight light = umbrage_light(shadows, cluster, i);
     vec3 to_light = light.type == 2u ? -light.direction_ws : light.position_ws - position_ws;
     if (dot(normal_ws, to_light) <= 0.01 * length(to_light)) continue;   // some surfaces lie in a light's own plane
+    if (light.type != 2u && dot(to_light, to_light) > light.range_m * light.range_m) continue;
+    if (light.type == 1u && dot(light.direction_ws, -to_light) <= light.cos_outer * length(to_light)) continue;   // beside its cone
     Visibility(push.visibility).of[first + light.host_index] = umbrage_visibility(shadows, cluster, i, position_ws, normal_ws);
   }
   if (cluster.count == 0u) return;
