@@ -93,8 +93,8 @@ struct MarkFaults {
 
 void check_tap(const DeviceMaps& maps, const shared::MapRecord& map, const Tap& tap, MarkFaults& faults) {
   ++faults.taps;
-  const uint32_t page = tap.y / shared::PageSide * map.pages + tap.x / shared::PageSide, receiver = map.first_receiver + tap.view,
-                 grid = maps.record.receiver_grid;
+  const uint32_t page = tap.y / shared::PageSide * map.pages + tap.x / shared::PageSide,
+                 receiver = map.first_receiver + tap.view, grid = maps.record.receiver_grid;
   const auto part = [&](uint32_t i, uint32_t parts) {
     return static_cast<uint32_t>((uint64_t(2 * i + 1) * parts) / (2 * map.resolution));
   };
