@@ -17,14 +17,17 @@ void Frame::record_requests(gpu::Recorder& recorder, const FramePlan& plan, cons
   // Clusters → lights of each, through the light tree; which lights are used at all (O1).
   clusters.record_lights(recorder, block, counters, scene, light_shape(), plan.settings.light_assignment);
 
+  // Boxes of points that no depth buffer holds → lights that reach them, which are used as well.
+  others.record_lights(recorder, scene, clusters.used_lights());
+
   // Used lights → their shadow views.
-  views.record(recorder, block, counters, scene, clusters.used_lights(), plan.all_lights);
+  views.record(recorder, block, counters, scene, clusters.used_lights(), others.anywhere());
   if (scene.light_slots() == 0 || plan.store == Store::fixed_cubes) return;
 
   // Cluster/light pairs → resolutions (O2) → maps (O8) → pages and receivers that lookups touch (O3, O7); coarser until it fits.
   const maps::Maps::Inputs receivers{scene,          clusters,      block,       counters,
                                      views.buffer(), plan.settings, plan.seen(), backing(plan.store),
-                                     plan.all_lights};
+                                     others};
   maps.record(recorder, receivers);
 
   // Marked pages → places in the pool, cleared; or a list for the host, which binds them (O18).
@@ -211,6 +214,7 @@ Result<std::unique_ptr<Frame>> Frame::create(const gpu::Device& device, gpu::Mem
   if (auto ok = make(frame->scene_pipelines, scene::ScenePipelines::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->clusters, clusters::Clusters::create(factory)); !ok) return ok.error();
   if (auto ok = make(frame->views, maps::Views::create(factory)); !ok) return ok.error();
+  if (auto ok = make(frame->others, maps::OtherReceivers::create(factory)); !ok) return ok.error();
   if (settings.store != Store::fixed_cubes) {
     if (auto ok = make(frame->maps, maps::Maps::create(factory)); !ok) return ok.error();
     if (auto ok = make(frame->map_culling, culling::MapCulling::create(factory)); !ok) return ok.error();

@@ -26,7 +26,6 @@ struct FramePlan {
   std::array<clusters::FrameCamera, shared::MaxCameras> cameras;
   std::array<CameraId, shared::MaxCameras> camera_ids;
   uint32_t camera_count = 0;
-  bool all_lights = false;
   bool cascades = false;
   uint32_t caster_rounds = 1;
   VkPipelineStageFlags2 consumer_stages = 0;
@@ -83,6 +82,7 @@ struct Frame {
   scene::GpuScene scene;
   clusters::Clusters clusters;
   maps::Views views;
+  maps::OtherReceivers others;
   // Virtual shadow maps
   maps::Maps maps;
   culling::MapCulling map_culling;

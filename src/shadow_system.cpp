@@ -99,7 +99,8 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     if (auto ok = s.lay_out_maps(desc.settings); !ok) return ok.error();
     if (auto ok = s.reserve(**slot, cameras.back().end_tile, desc); !ok) return ok.error();
     if (auto ok = s.begin_cascades(**slot, cameras.front(), desc); !ok) return ok.error();
-    if (auto ok = s.frame->scene.upload((*slot)->uploader, s.retired, desc.serial); !ok) {
+    const VkDeviceSize box_bytes = maps::OtherReceivers::staged_bytes(desc.cameras);
+    if (auto ok = s.frame->scene.upload((*slot)->uploader, s.retired, desc.serial, box_bytes); !ok) {
       s.frame->cascades.stop();
       return ok.error();
     }
@@ -130,6 +131,7 @@ Result<void> ShadowSystem::begin_frame(const FrameDesc& desc) {
     shared::FrameCounters counters{};
     counters.pair_limit = s.plan.caster_rounds * s.caster_pairs_per_round();
     s.current->uploader.copy(s.frame->counters, 0, &counters, sizeof counters);
+    s.frame->others.upload(s.current->uploader, desc.cameras);
     if (s.plan.cascades) s.frame->cascades.upload(s.current->uploader);
     s.write_sets(*s.current, desc.cameras);
     s.current->without_map = s.without_map;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace umbrage {
@@ -220,6 +221,7 @@ Result<void> ShadowSystem::State::reserve(FrameSlot& slot, uint32_t tile_count, 
   if (auto ok = frame->clusters.reserve(*device, *memory, tile_count, pair_capacity, light_slots, outgrown); !ok)
     return ok.error();
   if (auto ok = frame->views.reserve(*device, *memory, views, outgrown); !ok) return ok.error();
+  if (auto ok = frame->others.reserve(*device, *memory, desc.cameras, outgrown); !ok) return ok.error();
   // The include names the atlas, so that there is one in any case.
   if (auto ok = frame->store.reserve(*device, *memory, layout, retired, desc.serial); !ok) return ok.error();
   if (auto ok = has_virtual_maps() ? reserve_virtual_maps(desc) : reserve_fixed_cubes(desc); !ok) return ok.error();
@@ -359,6 +361,14 @@ uint32_t ShadowSystem::State::shader_store() const {
   return shared::StorePool;
 }
 
+/// A box of CameraDesc::other_receivers_ws.
+bool is_sound(const Aabb& box) {
+  const float sides[3][2] = {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}};
+  return std::all_of(std::begin(sides), std::end(sides), [](const float (&side)[2]) {
+    return std::isfinite(side[0]) && std::isfinite(side[1]) && side[0] <= side[1];
+  });
+}
+
 Result<CameraRecords> camera_records(std::span<const CameraDesc> cameras) {
   const auto invalid = [](std::string text) { return Error{ErrorCode::invalid_argument, std::move(text)}; };
   if (cameras.empty() || cameras.size() > shared::MaxCameras)
@@ -374,6 +384,10 @@ Result<CameraRecords> camera_records(std::span<const CameraDesc> cameras) {
       if (cameras[other].id.value == camera.id.value)
         return invalid("FrameDesc::cameras: two have the id " + std::to_string(camera.id.value) +
                        "; each needs its own");
+    const auto boxes = camera.other_receivers_ws;
+    if (const auto bad = std::find_if_not(boxes.begin(), boxes.end(), is_sound); bad != boxes.end())
+      return invalid("CameraDesc::other_receivers_ws: box " + std::to_string(bad - boxes.begin()) +
+                     " is not finite or has a minimum above its maximum");
     auto record = clusters::camera_record(camera);
     if (!record) return record.error();
     record->first_tile = i == 0 ? 0 : made.records[i - 1].end_tile;
@@ -392,7 +406,6 @@ void ShadowSystem::State::plan_cameras(std::span<const CameraDesc> cameras,
                        .tiles = records[i].tiles,
                        .normal_encoding = cameras[i].normal_encoding};
     plan.camera_ids[i] = cameras[i].id;
-    plan.all_lights |= cameras[i].other_receivers;
   }
 }
 

@@ -10,6 +10,15 @@ using umbrage::Result;
 
 namespace {
 
+/// Boxes of a blended primitive at most: panes of many windows often are one.
+constexpr size_t kMostParts = 32;
+
+const Primitive& primitive_of(const Scene& scene, const SceneBuffers& buffers, const Pose& pose,
+                              const SceneItem& item) {
+  const uint32_t mesh = pose.instances[item.instance].mesh;
+  return scene.meshes[mesh].primitives[item.primitive - buffers.first_primitive(mesh)];
+}
+
 bool is_mirrored(const glm::mat4& m) { return glm::determinant(glm::mat3(m)) < 0.0f; }
 
 /// What a camera sees, relative to its eye.
@@ -55,6 +64,10 @@ Result<DrawList> DrawList::create(const GpuContext& context, const Scene& scene,
     entry.unbounded = items[i].deformed;
     entry.mesh_center = 0.5f * (primitive.lowest + primitive.highest);
     entry.mesh_half_size = 0.5f * (primitive.highest - primitive.lowest);
+    if (entry.alpha == AlphaMode::blend) {
+      entry.parts = static_cast<uint32_t>(list.parts_.size());
+      list.parts_.push_back(bounding_parts(primitive_of(scene, buffers, pose, items[i]), kMostParts));
+    }
     list.entries_.push_back(entry);
   }
   const size_t count = std::max<size_t>(items.size(), 1);
@@ -121,6 +134,31 @@ void DrawList::select(const CameraMatrices& camera) {
       draws_.push_back({entries_[place].index_count, 1, entries_[place].first_index, 0, place});
   }
   commands_.write(std::span<const VkDrawIndexedIndirectCommand>(draws_));
+  find_blended(camera);
+}
+
+void DrawList::find_blended(const CameraMatrices& camera) {
+  const Frustum frustum(camera.clip_from_offset);
+  blended_in_view_ = false;
+  blended_boxes_.clear();
+  for (const BlendedDraw& draw : blended_) {
+    const Entry& entry = entries_[draw.instance];
+    if (entry.unbounded) {
+      blended_in_view_ = true;
+      blended_boxes_.clear();
+      return;
+    }
+    const glm::mat3 linear(entry.world_from_mesh);
+    const glm::mat3 extent(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
+    for (const MeshBox& part : parts_[entry.parts]) {
+      const glm::vec3 center = glm::vec3(entry.world_from_mesh * glm::vec4(0.5f * (part.lowest + part.highest), 1.0f));
+      const glm::vec3 half_size = extent * (0.5f * (part.highest - part.lowest));
+      if (!frustum.meets(center - camera.eye, half_size)) continue;
+      const glm::vec3 lowest = center - half_size, highest = center + half_size;
+      blended_boxes_.push_back({{lowest.x, lowest.y, lowest.z}, {highest.x, highest.y, highest.z}});
+      blended_in_view_ = true;
+    }
+  }
 }
 
 void DrawList::write_instance(uint32_t place, const Pose& pose, std::span<const SceneItem> items) {
@@ -134,7 +172,9 @@ void DrawList::write_instance(uint32_t place, const Pose& pose, std::span<const 
   entry.center = glm::vec3(matrix * glm::vec4(entry.mesh_center, 1.0f));
   for (int axis = 0; axis < 3; ++axis)
     entry.half_size[axis] = glm::dot(glm::abs(glm::vec3(rows[axis])), entry.mesh_half_size);
-  if (entry.alpha == AlphaMode::blend) blended_[place - (entries_.size() - blended_.size())].center = entry.center;
+  if (entry.alpha != AlphaMode::blend) return;
+  entry.world_from_mesh = matrix;
+  blended_[place - (entries_.size() - blended_.size())].center = entry.center;
 }
 
 }  // namespace app

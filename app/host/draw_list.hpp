@@ -2,6 +2,7 @@
 #pragma once
 #include <tuple>
 
+#include "host/bounding_parts.hpp"
 #include "host/frame_data.hpp"
 #include "host/shaders/host.shared.h"
 
@@ -29,13 +30,16 @@ class DrawList {
                                           std::span<const SceneItem>);
   /// Takes over the transforms of what moves. No submission that reads the list is under way.
   void update(const Pose&, std::span<const SceneItem>);
-  /// Lists the opaque and masked draws whose boxes a camera's frustum meets, those of a range from near to far.
+  /// Lists the opaque and masked draws whose boxes a camera's frustum meets, those of a range from near to far, and finds
+  /// the blended surfaces in it.
   void select(const CameraMatrices&);
   /// Opaque and masked items, a multi-draw for each range.
   std::span<const DrawRange> ranges() const { return ranges_; }
   VkBuffer commands() const { return commands_.get(); }
   /// Blended items, unsorted.
   std::span<const BlendedDraw> blended() const { return blended_; }
+  /// Where blended surfaces are that the camera may see.
+  OtherReceivers blended_places() const { return {blended_in_view_, blended_boxes_}; }
   VkDeviceAddress instances() const { return instances_.address(); }
 
  private:
@@ -46,12 +50,15 @@ class DrawList {
     bool unbounded = false;  ///< Deformed: its box is not known.
     glm::vec3 mesh_center{0}, mesh_half_size{0};
     glm::vec3 center{0}, half_size{0};  ///< World.
+    uint32_t parts = 0;                 ///< Blended: into parts_.
+    glm::mat4 world_from_mesh{1};       ///< Likewise.
     auto order() const {
       return std::tuple(alpha == AlphaMode::blend, alpha, double_sided, mirrored, reads, primitive, item);
     }
   };
   void build(const Pose&, std::span<const SceneItem>);
   void append(uint32_t place);
+  void find_blended(const CameraMatrices&);
   void write_instance(uint32_t place, const Pose&, std::span<const SceneItem>);
 
   std::vector<Entry> entries_;  ///< In the order of the instance table.
@@ -60,6 +67,9 @@ class DrawList {
   std::vector<std::pair<float, uint32_t>> nearest_;  ///< Depth and place, of a range.
   std::vector<DrawRange> ranges_;
   std::vector<BlendedDraw> blended_;
+  std::vector<std::vector<MeshBox>> parts_;  ///< Of blended items.
+  std::vector<umbrage::Aabb> blended_boxes_;
+  bool blended_in_view_ = false;
 };
 
 }  // namespace app

@@ -223,7 +223,7 @@ const gpu::GpuCounters& FrameData::read_counters() const {
   return *reinterpret_cast<const gpu::GpuCounters*>(counters_read_back_.mapped());
 }
 
-umbrage::CameraDesc umbrage_camera(const CameraMatrices& m, const Targets& targets, bool other_receivers) {
+umbrage::CameraDesc umbrage_camera(const CameraMatrices& m, const Targets& targets, const OtherReceivers& others) {
   umbrage::CameraDesc desc;
   std::memcpy(desc.view_from_world.m, &m.view_from_world, sizeof(desc.view_from_world.m));
   std::memcpy(desc.clip_from_view.m, &m.clip_from_view, sizeof(desc.clip_from_view.m));
@@ -234,7 +234,8 @@ umbrage::CameraDesc umbrage_camera(const CameraMatrices& m, const Targets& targe
   desc.normal = targets[Target::geometric_normal].view();
   desc.normal_layout = layout_of(ImageUse::sampled);
   desc.normal_encoding = umbrage::NormalEncoding::octahedral_snorm;
-  desc.other_receivers = other_receivers;
+  desc.other_receivers = others.any;
+  desc.other_receivers_ws = others.boxes;
   return desc;
 }
 

@@ -50,7 +50,11 @@ class FrameData {
   DeviceBuffer frame_buffer_, lights_, counters_, counters_read_back_;
 };
 
-/// other_receivers: surfaces that the depth buffer does not hold are shaded too.
-umbrage::CameraDesc umbrage_camera(const CameraMatrices&, const Targets&, bool other_receivers);
+/// Surfaces that are shaded too, though the depth buffer does not hold them.
+struct OtherReceivers {
+  bool any = false;
+  std::span<const umbrage::Aabb> boxes;  ///< Around all of them; empty: not known.
+};
+umbrage::CameraDesc umbrage_camera(const CameraMatrices&, const Targets&, const OtherReceivers&);
 
 }  // namespace app

@@ -163,7 +163,7 @@ Result<void> Renderer::State::begin_frame(const FrameInput& input, const CameraM
 
   // The picture's camera, and the faces of the mirror's cube map: what they see is marked alike.
   std::array<umbrage::CameraDesc, 1 + ReflectionCube::kFaces> cameras;
-  cameras[0] = umbrage_camera(camera, targets, !draws.blended().empty());
+  cameras[0] = umbrage_camera(camera, targets, draws.blended_places());
   size_t camera_count = 1;
   if (reflection) {
     const auto faces = reflection->cameras(kFirstFace);

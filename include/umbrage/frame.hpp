@@ -32,6 +32,9 @@ struct CameraDesc {
   /// Points that this depth buffer does not hold will be looked up too (glass, fog, particles): every light gets a map,
   /// not only those that reach a cluster.
   bool other_receivers = false;
+  /// Where they all lie, in world space; empty: anywhere. Only lights that reach a box get a map for them, which holds what casts
+  /// on the boxes; a point elsewhere counts as lit. Of several cameras, the boxes of all. Read by begin_frame.
+  std::span<const Aabb> other_receivers_ws;
 };
 
 struct FrameDesc {

@@ -58,6 +58,7 @@ UMB_ASSERT_SIZE(FrameReport, 212);
 /// Words of the used lights: bits.
 UMB_CONST uint LightIsUsed = 1u;
 UMB_CONST uint LightLacksCasters = 2u;
+UMB_CONST uint LightReachesBoxes = 4u;  // of points that no depth buffer holds
 UMB_CONST uint LightShiftAt = 8u;       // halvings of its resolutions, from this bit on
 
 UMB_NAMESPACE_END

@@ -45,7 +45,7 @@ UMB_FN MapReceivers receivers_of(MapRecord map, uint64_t projection, uint64_t re
   receivers.grid = grid;
   for (uint view = 0u; view < 6u; ++view) {
     float farthest = 0.0f;
-    if (mode == CullProjectionMapDepth && map.whole == 0u && view < map.view_count) {
+    if (mode == CullProjectionMapDepth && map.receivers != ReceiversAnywhere && view < map.view_count) {
       for (uint i = 0u; i < grid * grid; ++i) farthest = max(farthest, uintBitsToFloat(word_at(receivers.depths, view * grid * grid + i)));
     }
     receivers.farthest[view] = farthest;
@@ -103,7 +103,7 @@ UMB_FN bool meets_receivers(ViewFootprint seen, MapReceivers receivers, uint vie
 UMB_FN uint faces_to_draw(MapRecord map, ShadowView first, MapReceivers receivers, Box box, uint mode) {
   if (mode == CullLightVolume) return (1u << map.view_count) - 1u;
   uint seeing = views_seeing(map, first, box);
-  if (map.whole != 0u) return seeing;
+  if (map.receivers == ReceiversAnywhere) return seeing;
   seeing &= map.faces;
   if (mode == CullViewMask) return seeing;
   uint faces = 0u;

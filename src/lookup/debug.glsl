@@ -25,7 +25,8 @@ UMB_FN DebugMap debug_no_map(uint slot) { return DebugMap(NoIndex, slot, 0u, 0u,
 /// Map `index` of the frame, one of debug_light_maps.
 UMB_FN DebugMap debug_map_at(Frame frame, uint index, uint slot) {
   MapRecord map = UmbrageMapList(UmbrageFrames(frame.address).v[0].maps).v[index];
-  return DebugMap(index, slot, map.first_view, map.view_count, map.resolution, map.pages, page_side_of(map.resolution), map.whole != 0u, map.triangles);
+  return DebugMap(index, slot, map.first_view, map.view_count, map.resolution, map.pages, page_side_of(map.resolution), map.receivers == ReceiversAnywhere,
+                  map.triangles);
 }
 
 /// The map that umbrage_visibility looks up for light i of a cluster.

@@ -19,7 +19,7 @@ struct Map {
   uint pages;        // page pool: along a view's side
   uint words;        // page words a view
   uint first_word;
-  uint whole;        // 1: answers for points that nobody marked
+  uint receivers;    // ReceiversInSight, …
   uint image;        // stores of images
   uint layer;        // of the first view
   uint faces;        // bit v: view v is drawn
@@ -32,25 +32,25 @@ UMB_FN Map map_of_record(Frame frame, uint index, float near_m) {
   uint at = index == NoIndex ? 0u : index;
   uint resolution = index == NoIndex ? 0u : maps.v[at].resolution;
   uint pages = store_of(frame) == StoreImages ? 0u : pages_of(resolution);
-  return Map(maps.v[at].first_view, resolution, near_m, pages, page_words_of(pages), maps.v[at].first_word, maps.v[at].whole,
+  return Map(maps.v[at].first_view, resolution, near_m, pages, page_words_of(pages), maps.v[at].first_word, maps.v[at].receivers,
              maps.v[at].image, maps.v[at].layer, maps.v[at].faces, frame.depth_step);
 }
 
 UMB_FN uint whole_map(Frame frame, uint slot) { return UmbrageLightMapList(UmbrageFrames(frame.address).v[0].light_maps).v[slot].whole; }
 
-/// A pair has a map of its own unless it faces away; points that no depth buffer saw have the light's whole map: NoIndex.
+/// A pair has a map of its own unless it faces away: NoIndex. Points that no depth buffer saw: WholeMap.
 UMB_FN uint pair_map(Frame frame, Cluster cluster, uint i) {
-  uint map = NoIndex;
+  uint map = WholeMap;
   if (store_of(frame) != StoreAtlas && cluster.is_sample != 0u) map = UmbrageUints(frame.pair_maps).v[cluster.first + i];
   return map;
 }
 
-/// The map with which a light's visibility is looked up.
+/// The map with which a light's visibility is looked up; the whole one, if there is one, of what has none of its own.
 UMB_FN Map map_of_light(Frame frame, Light light) {
   Map map = Map(light.first_view, light.resolution, light.near_m, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0f);
   if (store_of(frame) != StoreAtlas) {
     uint index = light.map;
-    if (index == NoIndex) index = whole_map(frame, light.index);
+    if (index == NoIndex || index == WholeMap) index = whole_map(frame, light.index);
     map = map_of_record(frame, index, light.near_m);
   }
   return map;

@@ -18,7 +18,7 @@ UMB_FN uint find_page(Frame frame, Map map, uint view, uint page) {
 UMB_FN void check_texel(Frame frame, Map map, uvec2 texel, uint first) {
 #ifdef UMBRAGE_CHECK_TEXELS   // needs UMBRAGE_COUNT_TAPS
   UmbrageFrames f = UmbrageFrames(frame.address);
-  if (f.v[0].texel_bits == 0ul || map.whole != 0u || map.resolution < PageSide) return;
+  if (f.v[0].texel_bits == 0ul || map.receivers != ReceiversInSight || map.resolution < PageSide) return;
   uint row = UmbrageUints(f.v[0].texel_bits).v[texel_word(first, texel.y % PageSide)];
   if ((row >> texel.x % PageSide & 1u) == 0u) atomicAdd(UmbrageTapCounter(f.v[0].tap_counts).taps.unbacked, 1u);
 #endif

@@ -85,7 +85,7 @@ struct Light {
   uint first_view;
   uint resolution;
   float near_m;
-  uint map;          // of the pair of cluster and light; NoIndex: the light's whole map
+  uint map;          // of the pair of cluster and light; NoIndex: it faces away; WholeMap
 };
 
 Frame umbrage_frame(uint64_t address) {

@@ -24,24 +24,33 @@ UMB_FN void count_taps(Frame frame, uint unbacked, uint unmarked) {
 #endif
 }
 
-/// What the light's map says.
+/// What the light's map says. Without one, and beside its marks, a point that no depth buffer saw is lit, and one of a cluster whose
+/// normals face away is dark.
 UMB_FN float visibility_mapped(Frame frame, Light light, vec3 position_ws, vec3 normal_ws) {
   Map map = map_of_light(frame, light);
-  float visibility = 0.0f;
+  float visibility = light.map == NoIndex ? 0.0f : 1.0f;
   if (map.resolution != 0u) {
     uint missing = 0u;   // taps without a page
-    visibility = visibility_in_map(frame, light, map, position_ws, normal_ws, missing);
-    if (missing != 0u) {
-      // Outside of what the depth buffer showed: all nine taps from the light's whole map, if it has one.
-      Map whole = map_of_record(frame, whole_map(frame, light.index), light.near_m);
-      if (whole.resolution == 0u) {
-        count_taps(frame, missing, 0u);
-      } else {
-        count_taps(frame, 0u, missing);
-        visibility = visibility_in_map(frame, light, whole, position_ws, normal_ws, missing);
+    float mapped = visibility_in_map(frame, light, map, position_ws, normal_ws, missing);
+    if (map.receivers != ReceiversInSight) {
+      if (light.map != NoIndex || missing == 0u) {
+        visibility = mapped;
+        count_taps(frame, missing, 9u - missing);
       }
-    } else if (map.whole != 0u) {
-      count_taps(frame, 0u, 9u);
+    } else {
+      visibility = mapped;
+      if (missing != 0u) {
+        // Outside of what the depth buffer showed: all nine taps from the light's whole map, if it has one.
+        Map whole = map_of_record(frame, whole_map(frame, light.index), light.near_m);
+        if (whole.resolution == 0u) {
+          count_taps(frame, missing, 0u);
+        } else {
+          count_taps(frame, 0u, missing);
+          missing = 0u;
+          visibility = visibility_in_map(frame, light, whole, position_ws, normal_ws, missing);
+          count_taps(frame, missing, 0u);
+        }
+      }
     }
   }
   return visibility;
@@ -49,7 +58,8 @@ UMB_FN float visibility_mapped(Frame frame, Light light, vec3 position_ws, vec3 
 
 /// How much of a light, umbrage_light(frame, cluster, i), reaches a point: 0 nothing, 1 all. normal_ws: the surface's geometric
 /// normal, unit, on the side that is seen. Meaningful where normal · light > 0 and the light is in range, a spot's cone
-/// included; lights that cast no shadow give 1, surfaces that the cluster's normals show to face away give 0.
+/// included; lights that cast no shadow give 1, surfaces that the cluster's normals show to face away give 0. Of
+/// points that no depth buffer saw only those are shadowed of which CameraDesc::other_receivers speaks.
 float umbrage_visibility(Frame frame, Light light, vec3 position_ws, vec3 normal_ws) {
   float visibility = 1.0f;
   uint cascade = NoIndex;

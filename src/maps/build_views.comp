@@ -29,7 +29,7 @@ void main() {
   bool used = all_used || Uints(push.used).v[slot] != 0u;
   if (used) {
     atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
-    Uints(push.used).v[slot] = LightIsUsed;
+    Uints(push.used).v[slot] |= LightIsUsed;
   }
   if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
   FrameRecord frame = Frame(push.frame).record;

@@ -57,9 +57,11 @@ uint kept_places(LightRecord light, LightRequest request, uint shift, uint most)
   return kept;
 }
 
-bool wants_whole(LightRecord light) {
+/// Whom a light's whole map is for; ReceiversInSight: it has none.
+uint receivers_of_whole(uint slot) {
   FrameCounters counters = Counters(push.counters).counters;
-  return has_flag(MapsAllLights) || counters.all_lights_used != 0u || counters.clusters_found > counters.clusters;
+  if (has_flag(MapsAllLights) || counters.all_lights_used != 0u || counters.clusters_found > counters.clusters) return ReceiversAnywhere;
+  return (Uints(push.used).v[slot] & LightReachesBoxes) != 0u ? ReceiversInBoxes : ReceiversInSight;
 }
 
 uint whole_resolution(LightRecord light, uint shift) {
@@ -80,7 +82,7 @@ Share share_of(uint slot, Limits limits) {
   for (uint left = kept; left != 0u; left &= left - 1u)
     share.words += light.view_count * page_words_of(pages_of(resolution_of_place(light, request, uint(findLSB(left)), shift)));
   share.maps = bitCount(kept);
-  if (wants_whole(light)) {
+  if (receivers_of_whole(slot) != ReceiversInSight) {
     ++share.maps;
     share.words += light.view_count;
   }
@@ -120,9 +122,9 @@ void write_maps(uint slot, Limits limits, inout Share at) {
   if (light.type != NoIndex && light.view_count > 0u) {
     LightRequest request = Requests(push.requests).v[slot];
     maps.kept = kept_places(light, request, maps.shift, limits.maps_per_light);
-    bool whole = wants_whole(light);
-    maps.count = bitCount(maps.kept) + uint(whole);
-    if (whole) maps.whole = at.maps + maps.count - 1u;
+    uint others = receivers_of_whole(slot);
+    maps.count = bitCount(maps.kept) + uint(others != ReceiversInSight);
+    if (others != ReceiversInSight) maps.whole = at.maps + maps.count - 1u;
     uint left = maps.kept;
     for (uint i = 0u; i < maps.count; ++i) {
       bool is_whole = left == 0u;
@@ -132,7 +134,8 @@ void write_maps(uint slot, Limits limits, inout Share at) {
       uint pages = pages_of(resolution);
       uint words = page_words_of(pages);
       Maps(frame.maps).v[at.maps] = MapRecord(slot, first_view, light.view_count, light.views, resolution, pages, words, at.words, at.views,
-                                              is_whole ? (1u << light.view_count) - 1u : 0u, uint(is_whole), light.light_mask, NoIndex, 0u, resolution, 0u);
+                                              is_whole && others == ReceiversAnywhere ? (1u << light.view_count) - 1u : 0u,
+                                              is_whole ? others : ReceiversInSight, light.light_mask, NoIndex, 0u, resolution, 0u);
       ++at.maps;
       at.words += words * light.view_count;
       at.views += light.view_count;

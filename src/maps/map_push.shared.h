@@ -90,6 +90,27 @@ struct MarkSamplesPush {   // mark_blocks, mark_texels
 };
 UMB_ASSERT_SIZE(MarkSamplesPush, 32);
 
+/// Boxes that a thread of reach_boxes tests.
+UMB_CONST uint BoxesAtOnce = 32u;
+
+struct ReachBoxesPush {    // reach_boxes
+  uint64_t lights;
+  uint64_t boxes;
+  uint64_t used;           // words per light slot
+  uint light_slots;
+  uint box_count;
+};
+UMB_ASSERT_SIZE(ReachBoxesPush, 32);
+
+struct MarkBoxesPush {     // mark_boxes
+  uint64_t frame;
+  uint64_t counters;
+  uint64_t boxes;
+  uint box_count;
+  uint pad;
+};
+UMB_ASSERT_SIZE(MarkBoxesPush, 32);
+
 struct PlaceMapsPush {     // place_maps
   uint64_t frame;
   uint64_t counters;

@@ -22,6 +22,12 @@ UMB_CONST uint MaxMapsPerLight = 16u;
 /// O7: tiles along a projection map's side.
 UMB_CONST uint ProjectionSide = 32u;
 
+/// Points that a map answers for: those that some depth buffer shows; with a light's whole map those that none does, wherever they
+/// are or where the host says (CameraDesc::other_receivers_ws).
+UMB_CONST uint ReceiversInSight = 0u;
+UMB_CONST uint ReceiversAnywhere = 1u;   // every page is marked and nothing is known of the receivers
+UMB_CONST uint ReceiversInBoxes = 2u;
+
 /// A light's views at one resolution. Views are numbered first_view … first_view + view_count-1 among the shadow views.
 struct MapRecord {
   uint light;              // slot
@@ -34,7 +40,7 @@ struct MapRecord {
   uint first_word;         // of the first view
   uint first_receiver;     // of the first view in projection maps and depth grids
   uint faces;              // bit v: view v has receivers (the map's cube-face mask)
-  uint whole;              // 1: every page is marked and nothing is known of the receivers
+  uint receivers;          // ReceiversInSight, …
   uint light_mask;
   uint image;              // stores of images: which, and the layer of the first view; NoIndex: none yet
   uint layer;
@@ -54,7 +60,8 @@ struct MapImage {
 };
 UMB_ASSERT_SIZE(MapImage, 12);
 
-/// The maps of a light: first … first + count-1, finest first; `whole` is one of them or NoIndex.
+/// The maps of a light: first … first + count-1, finest first; `whole` is the last of them, for points that no depth buffer
+/// shows, or NoIndex.
 struct LightMaps {
   uint first;
   uint count;
@@ -63,6 +70,9 @@ struct LightMaps {
   uint kept;               // bit p: a map begins at place p (map_of_place)
 };
 UMB_ASSERT_SIZE(LightMaps, 20);
+
+/// In lookups, instead of a map's number: the light's whole map.
+UMB_CONST uint WholeMap = 0xfffffffeu;
 
 UMB_FN uint pages_of(uint resolution) { return (resolution + PageSide - 1u) / PageSide; }
 UMB_FN uint page_side_of(uint resolution) { return min(resolution, PageSide); }

@@ -123,7 +123,7 @@ shared::MapsPush Maps::push(const Inputs& in) const {
   if (settings.buckets == HistogramBuckets::linear) flags |= shared::MapsLinearBuckets;
   if (settings.facing_away == FacingAway::dropped) flags |= shared::MapsDropFacingAway;
   if (settings.receiver_boxes != ReceiverBoxes::clusters) flags |= shared::MapsMarkBlocks;
-  if (in.all_lights) flags |= shared::MapsAllLights;
+  if (in.others.anywhere()) flags |= shared::MapsAllLights;
   if (in.backing.whole_images) flags |= shared::MapsWholeImages;
   if (in.backing.images && !in.backing.whole_images) flags |= shared::MapsSparse;
   if (has_sun_levels(in)) flags |= shared::MapsSunLevels;
@@ -215,6 +215,7 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
     gpu::Scope scope(recorder, "choose maps");
     gpu::Pass pass = recorder.pass("choose maps");
     pass.read(in.frame), pass.read(in.scene.light_buffer()), pass.read(requests_), pass.read(in.views);
+    pass.read(in.clusters.used_lights());
     pass.write(in.counters), pass.write(light_maps_), pass.write(maps_);
     pass.dispatch(choose_, push, 1);
   }
@@ -237,6 +238,8 @@ void Maps::fit(gpu::Recorder& recorder, const Inputs& in, uint32_t round) {
         pass.write(receiver_depth_);
     pass.dispatch_indirect(mark_, push, in.counters, offsetof(shared::FrameCounters, fit_pair_groups));
     if (in.settings.receiver_boxes != ReceiverBoxes::clusters) mark_blocks(recorder, in);
+    in.others.record_marks(recorder, {in.frame, in.counters, in.scene.light_buffer(), in.views, maps_, page_bits_,
+                                      projection_, receiver_depth_});
   }
   gpu::Scope scope(recorder, "fit budget");
   if (!in.backing.whole_images) count(recorder, in, push);

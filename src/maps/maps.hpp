@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 
+#include "maps/other_receivers.hpp"
 #include "maps/views.hpp"
 
 namespace umbrage::maps {
@@ -41,7 +42,7 @@ class Maps {
     const FrameSettings& settings;
     std::span<const clusters::FrameCamera> cameras;
     Backing backing;
-    bool all_lights;
+    OtherReceivers& others;
   };
   /// What is asked for → maps with their images, marked pages and receivers, with page_first() counted in pool units (page pool);
   /// all of it fits.

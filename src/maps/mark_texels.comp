@@ -142,7 +142,7 @@ void mark_slice(FrameRecord frame, uint tile, uint slice) {
     uint map_index = Uints(frame.pair_maps).v[pair];
     if (map_index == NoIndex) continue;
     MapRecord map = Maps(frame.maps).v[map_index];
-    if (map.resolution < PageSide || map.whole != 0u) continue;
+    if (map.resolution < PageSide || map.receivers != ReceiversInSight) continue;
     LightRecord light = Lights(frame.lights).v[map.light];
     if (light_meets_box(light, box)) mark_samples(pages, map, light, slice, slack_m);
   }

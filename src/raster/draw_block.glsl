@@ -15,7 +15,7 @@ bool is_cut_out(RasterTriangle t, vec3 weights, float level) {
 
 /// Are only texels drawn that are looked up? Small maps and those for points that no depth buffer saw are drawn whole.
 bool draws_looked_up(MapRecord map) {
-  return (push.flags & TestTexels) != 0u && map.resolution >= PageSide && map.whole == 0u;
+  return (push.flags & TestTexels) != 0u && map.resolution >= PageSide && map.receivers == ReceiversInSight;
 }
 
 /// Draws a triangle's texels first … last, which lie in one page that begins at `origin` in the pool; of those only what is

@@ -28,7 +28,7 @@ Pool pool_of(Frame frame) {
 /// False when in every cell of the receiver grid that texels first … last touch, all receivers lie in front of `nearest`, a
 /// depth key. Exact: keys of a view are in the order of its depths.
 bool receivers_see(Pool pool, MapRecord map, uint view, ivec2 first, ivec2 last, float near_m, float nearest) {
-  if (map.whole != 0u) return true;
+  if (map.receivers == ReceiversAnywhere) return true;
   uint side = pool.receiver_grid;
   CellRect cells = cells_of_texels(first, last, side, map.resolution);
   if ((cells.last.x - cells.first.x + 1) * (cells.last.y - cells.first.y + 1) > 64) return true;

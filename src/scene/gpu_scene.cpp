@@ -193,9 +193,10 @@ void GpuScene::stage_moved(gpu::Uploader& uploader) {
   dirty_casters_.clear();
 }
 
-Result<void> GpuScene::upload(gpu::Uploader& uploader, gpu::RetireQueue& retired, uint64_t serial) {
+Result<void> GpuScene::upload(gpu::Uploader& uploader, gpu::RetireQueue& retired, uint64_t serial,
+                              VkDeviceSize bytes_beside) {
   if (auto ok = ensure_buffers(); !ok) return ok.error();
-  if (auto ok = uploader.begin(device_, memory_, staged_bytes(), "staging"); !ok) return ok.error();
+  if (auto ok = uploader.begin(device_, memory_, staged_bytes() + bytes_beside, "staging"); !ok) return ok.error();
   for (gpu::Buffer& buffer : outgrown_) retired.retire(std::move(buffer), serial);
   for (std::unique_ptr<gpu::Buffer>& buffer : removed_buffers_) retired.retire(std::move(*buffer), serial);
   outgrown_.clear();

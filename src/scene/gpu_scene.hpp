@@ -52,8 +52,9 @@ class GpuScene {
   /// True if lights came, went or changed since the last upload.
   bool lights_edited() const { return lights_edited_; }
 
-  /// Sizes buffers and stages the edits for the frame. On error the edits stay pending.
-  Result<void> upload(gpu::Uploader&, gpu::RetireQueue&, uint64_t serial);
+  /// Sizes buffers and stages the edits for the frame; the uploader has room for so many bytes more. On error the edits
+  /// stay pending.
+  Result<void> upload(gpu::Uploader&, gpu::RetireQueue&, uint64_t serial, VkDeviceSize bytes_beside = 0);
   /// Copies, boxes, trees.
   void record(gpu::Recorder&, const ScenePipelines&, gpu::Uploader&, gpu::RetireQueue&, uint64_t serial);
 

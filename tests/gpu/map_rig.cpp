@@ -50,7 +50,7 @@ void MapTables::add(const shared::LightRecord& light, uint32_t slot, bool whole,
                         .first_word = 0,
                         .first_receiver = static_cast<uint32_t>(projection.size() / shared::ProjectionSide),
                         .faces = 0,
-                        .whole = whole,
+                        .receivers = whole ? shared::ReceiversAnywhere : shared::ReceiversInSight,
                         .light_mask = light.light_mask};
   reference::CasterMap plain_map{.views = {}, .receivers = {}, .whole = whole};
   for (uint32_t v = 0; v < light.view_count; ++v) {
@@ -89,7 +89,7 @@ void MapTables::see(const glm::vec3& receiver) {
     const double s = glm::dot(view.x, p) / scale, t = glm::dot(view.y, p) / scale;
     if (!(depth > 0) || std::max(std::abs(s), std::abs(t)) > 1) continue;
     receivers.back().push_back(receiver);
-    if (map.whole) return;
+    if (map.receivers == shared::ReceiversAnywhere) return;
     const uint32_t x = tile_of(s), y = tile_of(t),
                    cell = y * grid / shared::ProjectionSide * grid + x * grid / shared::ProjectionSide;
     reference::CasterReceivers& seen = known.receivers[v];

@@ -61,7 +61,7 @@ void PageRig::lay_out(std::mt19937& engine) {
     record.pages = shared::pages_of(map.resolution);
     record.words = shared::page_words_of(record.pages);
     record.first_word = static_cast<uint32_t>(bits.size());
-    record.whole = map.whole;
+    record.receivers = map.whole ? shared::ReceiversAnywhere : shared::ReceiversInSight;
     for (uint32_t view = 0; view < record.view_count; ++view) {
       for (uint32_t word = 0; word < record.words; ++word) {
         uint32_t marks = 0;

@@ -34,7 +34,9 @@ class PageRig {
   void look_up(double share, uint32_t seed);
   const std::vector<uint32_t>& texel_bits() const { return texel_bits_; }
   /// Does the writer draw every texel of the map, whatever is looked up?
-  bool draws_all(uint32_t map) const { return records_[map].whole != 0 || maps_[map].resolution < shared::PageSide; }
+  bool draws_all(uint32_t map) const {
+    return records_[map].receivers != shared::ReceiversInSight || maps_[map].resolution < shared::PageSide;
+  }
   using Write = std::function<void(gpu::Recorder&, const raster::PageWriterInputs&)>;
   void clear();
   void run(const Write&, gpu::HazardLog* = nullptr);

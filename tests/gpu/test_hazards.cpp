@@ -109,6 +109,11 @@ HazardLog eventful_frames(Gpu& gpu, Store store) {
   rig.frame({.writer = other, .max_resolution = 32});
   rig.frame({.writer = other, .max_resolution = 16});
   rig.frame(small, {}, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT);
+  const std::vector<Aabb> boxes{{{-4, 1, -4}, {-2, 2, 1}}, {{0, 0, 0}, {3, 3, 3}}};
+  rig.camera().other_receivers = true, rig.camera().other_receivers_ws = boxes;
+  rig.frame(small);
+  rig.frame(small);
+  rig.camera().other_receivers = false, rig.camera().other_receivers_ws = {};
   for (const LightId light : rig.light_ids)
     if (light.value != rig.light_ids[4].value) take(rig.system().remove(light));
   rig.frame(small);

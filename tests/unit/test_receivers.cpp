@@ -94,7 +94,8 @@ TEST(Receivers, FacesAreThoseOfTheReference) {
   size_t drawn = 0, open = 0, boxes = 0;
   for (int i = 0; i < 120; ++i) {
     Cube cube(1u << engine() % 6, engine);
-    cube.map.whole = cube.plain.whole = i % 10 == 9;
+    cube.map.receivers = i % 10 == 9 ? ReceiversAnywhere : i % 10 == 8 ? ReceiversInBoxes : ReceiversInSight;
+    cube.plain.whole = cube.map.receivers == ReceiversAnywhere;
     for (int k = 0; k < 100; ++k) {
       const Box box = random_box(cube.first.origin, k % kKinds, engine);
       const reference::Box plain{.min = box.lo, .max = box.hi};
