@@ -1,6 +1,6 @@
 #version 460
-// Queued triangles → lists of the tiles they touch: a workgroup a triangle, a thread a tile. A share that finds the lists full
-// is drawn here.
+// Queued triangles → lists of the tiles they touch: BinThreads threads a triangle, each a tile at a time. A share that finds the
+// lists full is drawn here.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_nonuniform_qualifier : require
 layout(constant_id = 0) const bool masked = false;
@@ -41,7 +41,7 @@ void link(uint triangle, RasterTile tile, ivec3 edges, vec3 fractions, float nea
 
 void main() {
   Appended appended = Appended(push.appended);
-  uint index = group_index();
+  uint index = group_index() * (RasterThreads / BinThreads) + gl_LocalInvocationIndex / BinThreads;
   if (index >= min(appended.v.triangles, push.large_capacity)) return;
   Frame frame = Frame(push.frame);
   Pool pool = pool_of(frame);
@@ -55,7 +55,7 @@ void main() {
   bool looked_up = draws_looked_up(map);
   ivec3 step_x = steps_x(t);
   ivec3 step_y = steps_y(t);
-  for (int i = int(gl_LocalInvocationIndex); i < tiles.x * tiles.y; i += int(RasterThreads)) {
+  for (int i = int(gl_LocalInvocationIndex % BinThreads); i < tiles.x * tiles.y; i += int(BinThreads)) {
     ivec2 corner = (first_tile + ivec2(i % tiles.x, i / tiles.x)) * int(PageSide);
     ivec3 edges;
     vec3 fractions;

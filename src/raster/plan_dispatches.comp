@@ -19,7 +19,8 @@ void main() {
     arguments.v.items = uint[](opaque.x, opaque.y, 1u, masked.x, masked.y, 1u);
     appended.v = RasterCounts(0u, 0u, 0u);
   } else if (push.flags == PlanTriangles) {
-    uvec2 groups = groups_of(min(appended.v.triangles, push.large_capacity));
+    const uint per_group = RasterThreads / BinThreads;
+    uvec2 groups = groups_of((min(appended.v.triangles, push.large_capacity) + per_group - 1u) / per_group);
     arguments.v.triangles = uint[](groups.x, groups.y, 1u);
     if (push.counters != 0ul) atomicMax(FrameCount(push.counters).v.large_triangles, appended.v.triangles);
   } else {

@@ -12,8 +12,10 @@ struct CastPush {            // cast.vert, cast_layer.vert, mask.frag
 };
 UMB_ASSERT_SIZE(CastPush, 16);
 
-/// Threads that share an item of the page rasteriser, or a queued triangle.
+/// Threads that share an item of the page rasteriser.
 UMB_CONST uint RasterThreads = 64u;
+/// Of a workgroup of as many, those that share a queued triangle: most touch a few tiles.
+UMB_CONST uint BinThreads = 8u;
 /// Rows of a page that a thread of draw_tiles, which has a column, skips or draws at once.
 UMB_CONST uint TileStep = 8u;
 /// A triangle whose box holds more texels is queued for the tiles.
