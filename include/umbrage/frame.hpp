@@ -33,7 +33,7 @@ struct CameraDesc {
   /// not only those that reach a cluster.
   bool other_receivers = false;
   /// Where they all lie, in world space; empty: anywhere. Only lights that reach a box get a map for them, which holds what casts
-  /// on the boxes; a point elsewhere counts as lit. Of several cameras, the boxes of all. Read by begin_frame.
+  /// on the boxes; a point elsewhere is lit, or shadowed at most by those. Of several cameras, the boxes of all. Read by begin_frame.
   std::span<const Aabb> other_receivers_ws;
 };
 

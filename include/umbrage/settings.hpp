@@ -85,7 +85,7 @@ struct StaticSettings {
   uint32_t budget_mib = 256;                 ///< Depth texels, 4…16384. Tables are reported apart.
   uint32_t batch_triangles = 128;            ///< O4: at most this many a batch, 32…1024.
   uint32_t max_cluster_light_pairs = 1 << 20;///< First size of the list; it grows to what the frames need.
-  uint32_t max_caster_pairs = 1 << 17;       ///< (batch, view) pairs drawn per round; more are worked off in further rounds.
+  uint32_t max_caster_pairs = 1 << 17;       ///< (batch, map) pairs drawn per round, fixed_cubes: (batch, view); more are worked off in further rounds.
 };
 
 /// May change every frame.

@@ -34,7 +34,7 @@ struct Statistics {
   uint64_t serial = 0;                  ///< The frame these belong to; 0 = none finished yet.
   std::span<const PassTime> passes;     ///< In order of execution. Valid until the next begin_frame.
   uint32_t lights = 0;
-  uint32_t lights_visible = 0;          ///< With at least one cluster.
+  uint32_t lights_visible = 0;          ///< With at least one cluster, or that other receivers (CameraDesc) need.
   uint64_t clusters = 0;                ///< Occupied.
   uint64_t cluster_light_pairs = 0;
   uint32_t shadow_maps = 0;             ///< Maps in use (a light has one with fixed-cubes).
@@ -47,7 +47,7 @@ struct Statistics {
   uint64_t unmarked_taps = 0;           ///< Looked up outside of what was marked, answered by the light's whole map; likewise.
   uint32_t map_resolution = 0;          ///< Texels along a side, fixed-cubes.
   uint64_t texels_allocated = 0;
-  uint64_t caster_pairs = 0;            ///< (batch, view) pairs that were listed.
+  uint64_t caster_pairs = 0;            ///< (batch, map) pairs that were listed; fixed-cubes: (batch, view).
   uint64_t batches_drawn = 0;           ///< (batch, view) pairs that were drawn.
   uint64_t triangles_drawn = 0;         ///< (triangle, view) pairs.
   uint64_t casters = 0;                 ///< Batches of all instances.

@@ -24,7 +24,7 @@ class MapCulling {
     const gpu::Buffer& counters;  ///< FrameCounters: map_groups, maps and pair_limit are read.
     const gpu::Buffer& views;
     const gpu::Buffer& maps;
-    const gpu::Buffer& projection;      ///< Receivers, of every map that is not whole; grown by filter and bias (E7).
+    const gpu::Buffer& projection;      ///< Receivers, of every map but whole ones for points anywhere; grown by filter and bias (E7).
     const gpu::Buffer& receiver_depth;  ///< Depths as ViewFootprint has them (E10).
     const gpu::Buffer& used_lights;
     VkDeviceAddress tree_shape;  ///< In `frame`.

@@ -1,6 +1,6 @@
 #version 460
 // Marks the texels that the nine taps of each depth-buffer sample read, of every light that reaches it: no others need be
-// drawn. For pages of PageSide that have their place; smaller maps are drawn whole. A thread a pixel.
+// drawn. For pages of PageSide that have their place; smaller maps are drawn whole. A thread 2×2 pixels.
 #extension GL_GOOGLE_include_directive : require
 #include "maps/map_arrays.glsl"
 layout(local_size_x = MarkSide * MarkSide) in;
