@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <tuple>
 
 #include "pair_rig.hpp"
 
@@ -55,7 +56,7 @@ void expect_even(const DeviceMaps& maps) {
   EXPECT_LE(most, least + 1);
 }
 
-/// From plenty to starvation and back.
+/// Systems of one budget after the other, from plenty to starvation and back.
 void starve(Gpu& gpu, const SeenScene& scene, const FrameSettings& settings, const std::vector<uint32_t>& budgets_mib) {
   std::map<uint32_t, Pairs> before;
   for (const uint32_t budget_mib : budgets_mib) {
@@ -79,6 +80,84 @@ TEST_F(Budget, OfFewLightsThatWantMuchFallsAndReturns) {
 
 TEST_F(Budget, OfThousandsOfLightsFallsAndReturns) {
   starve(gpu(), balls_scene(20, 4096, 42, 32, 32), {.undersampling = 4, .merge_below = 16}, {256, 4, 256});
+}
+
+// --- A live system ----------------------------------------------------------------------------------------------------------
+
+/// What a host may rely on in every frame, one whose tables are still growing included.
+void expect_sound(PairRig& rig, const Pairs& answers, uint32_t budget_mib) {
+  const Statistics& statistics = answers.statistics;
+  EXPECT_EQ(statistics.unbacked_taps, 0u);
+  EXPECT_GT(answers.asked(), 0u);
+  EXPECT_LE(statistics.texels_allocated * sizeof(uint32_t), uint64_t(budget_mib) << 20);
+  EXPECT_LE(statistics.shadow_memory_bytes, uint64_t(budget_mib) << 20);
+  const uint64_t missing = (statistics.texels_requested - statistics.texels_allocated) * sizeof(uint32_t);
+  EXPECT_EQ(rig.system().degraded_lights().empty(), missing == 0);
+  EXPECT_EQ(statistics.lights_degraded, rig.system().degraded_lights().size());
+  for (const LightStatus& status : rig.system().degraded_lights()) {
+    EXPECT_EQ(status.reason, Degradation::coarser);
+    EXPECT_EQ(status.missing_bytes, missing);
+  }
+}
+
+/// What one system is asked for during some frames.
+struct Demand {
+  uint32_t lights;  // of the scene, the first ones
+  uint32_t min_resolution;
+  bool starves;
+  bool operator<(const Demand& other) const {
+    return std::tie(lights, min_resolution) < std::tie(other.lights, other.min_resolution);
+  }
+};
+
+/// Has the system hold the first `count` lights of the scene.
+void hold_lights(PairRig& rig, const SeenScene& scene, uint32_t count) {
+  for (; rig.light_ids.size() > count; rig.light_ids.pop_back()) take(rig.system().remove(rig.light_ids.back()));
+  while (rig.light_ids.size() < count)
+    rig.light_ids.push_back(take(rig.system().add_light(scene.scene.lights[rig.light_ids.size()])));
+}
+
+TEST_F(Budget, OfALiveSystemFallsAndReturns) {
+  constexpr uint32_t kBudgetMib = 12, kStillFrames = 3;
+  const SeenScene scene = balls_scene(40, 400, 46);
+  const Demand demands[] = {{12, 16, false},  {12, 256, false}, {12, 1024, true},  {12, 64, false}, {96, 16, false},
+                            {400, 16, true},  {400, 512, true}, {400, 1024, true}, {400, 16, true}, {96, 16, false},
+                            {12, 1024, true}, {12, 256, false}, {12, 16, false}};
+  std::map<Demand, Pairs> known;
+  uint32_t unsettled = 0;
+  PairRig rig(gpu(), {.budget_mib = kBudgetMib, .max_cluster_light_pairs = 1024}, scene);
+  for (const Demand& demand : demands) {
+    SCOPED_TRACE(std::to_string(demand.lights) + " lights of at least " + std::to_string(demand.min_resolution));
+    hold_lights(rig, scene, demand.lights);
+    Pairs settled;
+    uint32_t still = 0;
+    for (uint32_t frame = 0; still < kStillFrames; ++frame) {
+      ASSERT_LT(frame, 4 + kStillFrames) << "does not settle";
+      const Pairs answers = rig.evaluate({.min_resolution = demand.min_resolution});
+      expect_sound(rig, answers, kBudgetMib);
+      if (answers.statistics.overflows > 0) {
+        EXPECT_EQ(still, 0u) << "settles only once";
+        ++unsettled;
+        continue;
+      }
+      EXPECT_EQ(rig.system().degraded_lights().empty(), !demand.starves);
+      if (still++ == 0)
+        settled = answers;
+      else
+        EXPECT_EQ(differences(settled, answers), 0u) << "a still picture flickers";
+    }
+    const auto [before, is_new] = known.try_emplace(demand, settled);
+    if (!is_new) { EXPECT_EQ(differences(before->second, settled), 0u) << "depends on what was before"; }
+  }
+  EXPECT_TRUE(rig.system().degraded_lights().empty());
+  EXPECT_GT(unsettled, 0u) << "tables never had to grow";
+  // Nor does a system that starves know that it once did not.
+  const Demand& starved = demands[2];
+  SeenScene fewer = scene;
+  fewer.scene.lights.resize(starved.lights);
+  PairRig fresh(gpu(), {.budget_mib = kBudgetMib}, fewer);
+  EXPECT_EQ(differences(known.at(starved), fresh.settle({.min_resolution = starved.min_resolution})), 0u);
+  EXPECT_GT(differences(known.at(demands[0]), known.at(starved)), 0u) << "starving makes no difference";
 }
 
 TEST_F(Budget, IsCuredByWhatTheReportSays) {
