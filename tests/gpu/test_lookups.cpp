@@ -247,6 +247,29 @@ TEST_F(Answers, AreTheSameEachTimeAndInAnyNumberOfRounds) {
   EXPECT_EQ(differences(first, rounds.settle()), 0u);
 }
 
+/// Of pages only the texels that taps read, or all of them.
+void expect_same_texels(PairRig& rig, const SeenScene& scene, FrameSettings settings) {
+  SCOPED_TRACE(scene.name);
+  settings.receiver_boxes = ReceiverBoxes::blocks;
+  const Pairs blocks = rig.settle(settings);
+  settings.receiver_boxes = ReceiverBoxes::samples;
+  const Pairs samples = rig.settle(settings);
+  EXPECT_EQ(differences(blocks, samples), 0u);
+  EXPECT_EQ(blocks.statistics.texels_allocated, samples.statistics.texels_allocated);
+}
+
+TEST_F(Answers, AreTheSameWhateverTexelsAreDrawn) {
+  const SeenScene scene = balls_scene(60, 40, 31);
+  PairRig rig(gpu(), {}, scene);
+  expect_shadows(rig.settle());
+  expect_same_texels(rig, scene, {});
+  expect_same_texels(rig, scene, {.layout = MapLayout::exact, .undersampling = 2});
+  for (const SeenScene& hard : hard_scenes()) {
+    rig.replace(hard);
+    expect_same_texels(rig, hard, {.max_resolution = 1024});
+  }
+}
+
 /// The same scene, added in another order; lights keep their host_index.
 SeenScene shuffled(const SeenScene& scene, uint32_t seed) {
   SeenScene out = scene;
