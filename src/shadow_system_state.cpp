@@ -126,8 +126,7 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
                shared::PoolUnit * texel_bytes()});
     if (word & shared::LightLacksCasters)
       degraded.push_back({LightId{frame->scene.lights().id_at(light)}, Degradation::casters_missing,
-                          (counters.caster_pairs - counters.pair_limit) *
-                              (sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand))});
+                          (counters.caster_pairs - counters.pair_limit) * bytes_a_caster_pair()});
   }
   statistics.overflows += uint64_t(counters.clusters_found > counters.clusters) +
                           uint64_t(counters.all_lights_used != 0) +
@@ -337,6 +336,10 @@ uint32_t ShadowSystem::State::caster_capacity() const {
 
 uint32_t ShadowSystem::State::caster_pairs_per_round() const {
   return has_virtual_maps() ? frame->map_culling.capacity() : frame->culling.capacity();
+}
+
+uint64_t ShadowSystem::State::bytes_a_caster_pair() const {
+  return has_virtual_maps() ? culling::MapCulling::kBytesAnItem : culling::CasterCulling::kBytesAnInstance;
 }
 
 uint32_t ShadowSystem::State::plan_rounds() {

@@ -78,6 +78,7 @@ struct ShadowSystem::State {
   uint64_t most_caster_pairs() const;
   uint32_t caster_capacity() const;
   uint32_t caster_pairs_per_round() const;
+  uint64_t bytes_a_caster_pair() const;
   uint32_t plan_rounds();
   void plan_cameras(std::span<const CameraDesc>, std::span<const shared::CameraRecord>);
   void write_sets(FrameSlot&, std::span<const CameraDesc>);

@@ -10,6 +10,8 @@ namespace umbrage::culling {
 
 class CasterCulling {
  public:
+  /// Memory of an instance a round: its command may be among the opaque ones or the masked ones.
+  static constexpr uint64_t kBytesAnInstance = sizeof(shared::CasterInstance) + 2 * sizeof(shared::DrawCommand);
   static Result<CasterCulling> create(const gpu::PipelineFactory&);
   /// capacity: instances a round. views_at_once and caster_slots size the command ranges of the traditional writer (0: not used).
   Result<void> reserve(const gpu::Device&, gpu::Memory&, uint32_t light_slots, uint32_t capacity,

@@ -59,7 +59,7 @@ Result<void> MapCulling::reserve(const gpu::Device& device, gpu::Memory& memory,
   };
   Need needs[] = {{counts_, VkDeviceSize(maps) * shared::TraverseThreads * sizeof(glm::uvec2), "item counts", {}},
                   {totals_, VkDeviceSize(2) * maps * sizeof(uint32_t), "items of maps", {}},
-                  {items_, VkDeviceSize(2) * items * sizeof(shared::CasterItem), "caster items", {}},
+                  {items_, items * kBytesAnItem, "caster items", {}},
                   {draw_counts_, sizeof(shared::DrawCounts), "item draw counts", {}}};
   for (Need& need : needs) {
     if (need.target && need.target.size() >= need.bytes) continue;

@@ -11,6 +11,8 @@ namespace umbrage::culling {
 class MapCulling {
  public:
   static constexpr uint32_t kModes = 5;  ///< Of umbrage::CasterCulling.
+  /// Memory of an item a round: there may be as many masked ones as opaque ones.
+  static constexpr uint64_t kBytesAnItem = 2 * sizeof(shared::CasterItem);
   /// node_test: NodesByLight, …; changes the time, never the items.
   static Result<MapCulling> create(const gpu::PipelineFactory&, uint32_t node_test = shared::NodesByView);
   /// Makes the pipelines of a mode, before it is recorded for the first time.

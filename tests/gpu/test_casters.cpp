@@ -199,31 +199,41 @@ TEST_F(Casters, InManyRoundsMakeTheSameDepth) {
     EXPECT_EQ(std::memcmp(atlases[0].depth.data(), atlas.depth.data(), atlas.depth.size() * sizeof(float)), 0);
 }
 
-TEST_F(Casters, BeyondTheRoundsAreReportedInTheirFrame) {
+/// Casters that are beyond all lights, and where they go all at once.
+struct Arrival {
   TestScene scene = mixed_scene(240, 40, 33);
-  for (uint32_t i = 0; i < scene.lights.size(); ++i)
-    scene.lights[i] = {.position = scene.lights[i].position, .range_m = 7, .host_index = i};
-  scene.lights[7].position = {0, 500, 0};  // reaches nothing, ever
-  scene.lights[39].position = {0, -500, 0};
   std::vector<Affine> near;
-  for (TestInstance& instance : scene.instances) {
-    near.push_back(instance.world_from_mesh);
-    instance.mobility = Mobility::movable;
-    instance.world_from_mesh.m[11] += 1000;
+  Arrival() {
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+      scene.lights[i] = {.position = scene.lights[i].position, .range_m = 7, .host_index = i};
+    scene.lights[7].position = {0, 500, 0};  // reaches nothing, ever
+    scene.lights[39].position = {0, -500, 0};
+    for (TestInstance& instance : scene.instances) {
+      near.push_back(instance.world_from_mesh);
+      instance.mobility = Mobility::movable;
+      instance.world_from_mesh.m[11] += 1000;
+    }
   }
-  SystemRig rig(gpu(), {.budget_mib = 16, .max_caster_pairs = 1024});
-  rig.add(scene);
-  rig.show_nothing();
-  const FrameSettings settings{.max_resolution = 64};
-  rig.frame(settings);
-  rig.frame(settings);
-  ASSERT_EQ(rig.counters().caster_pairs, 0u);
-  ASSERT_EQ(rig.state().plan.caster_rounds, 1u);
+  /// The frame in which they arrive, and whose rounds are too few.
+  void record(SystemRig& rig, const FrameSettings& settings) const {
+    rig.add(scene);
+    rig.show_nothing();
+    rig.frame(settings);
+    rig.frame(settings);
+    ASSERT_EQ(rig.counters().caster_pairs, 0u);
+    ASSERT_EQ(rig.state().plan.caster_rounds, 1u);
+    take(rig.system().set_transforms(rig.instance_ids, near));
+    rig.frame(settings);
+    ASSERT_GT(rig.counters().caster_pairs, rig.counters().pair_limit);
+  }
+};
 
-  take(rig.system().set_transforms(rig.instance_ids, near));
-  rig.frame(settings);
+TEST_F(Casters, BeyondTheRoundsAreReportedInTheirFrame) {
+  Arrival arrival;
+  SystemRig rig(gpu(), {.budget_mib = 16, .max_caster_pairs = 1024});
+  const FrameSettings settings{.max_resolution = 64};
+  ASSERT_NO_FATAL_FAILURE(arrival.record(rig, settings));
   const shared::FrameCounters counters = rig.counters();
-  ASSERT_GT(counters.caster_pairs, counters.pair_limit);
   EXPECT_EQ(counters.batches_drawn_low, counters.pair_limit);
   EXPECT_EQ(rig.system().statistics().serial, 3u);
   EXPECT_EQ(rig.system().statistics().overflows, 1u);
@@ -233,7 +243,7 @@ TEST_F(Casters, BeyondTheRoundsAreReportedInTheirFrame) {
   std::set<uint32_t> reported;
   for (const LightStatus& status : degraded) {
     EXPECT_EQ(status.reason, Degradation::casters_missing);
-    EXPECT_GT(status.missing_bytes, 0u);
+    EXPECT_EQ(status.missing_bytes, (counters.caster_pairs - counters.pair_limit) * 152ull);  // as max_caster_pairs says
     EXPECT_TRUE(reported.insert(status.light.value).second) << "reported twice";
   }
   // Instances are numbered by light: those of the last lights are missing, except where there are none.
@@ -247,11 +257,29 @@ TEST_F(Casters, BeyondTheRoundsAreReportedInTheirFrame) {
   EXPECT_TRUE(rig.system().degraded_lights().empty());
   const Atlas cured = rig.atlas();
   SystemRig fresh(gpu(), {.budget_mib = 16});
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].world_from_mesh = near[i];
-  fresh.add(scene);
+  for (size_t i = 0; i < arrival.near.size(); ++i) arrival.scene.instances[i].world_from_mesh = arrival.near[i];
+  fresh.add(arrival.scene);
   fresh.show_nothing();
   fresh.frame(settings);
   EXPECT_EQ(std::memcmp(fresh.atlas().depth.data(), cured.depth.data(), cured.depth.size() * sizeof(float)), 0);
+}
+
+TEST_F(Casters, OfVirtualMapsBeyondTheRoundsAreReportedInTheirFrame) {
+  for (const Store store : {Store::page_pool, Store::physical_pool}) {
+    SCOPED_TRACE("store " + std::to_string(static_cast<int>(store)));
+    SystemRig rig(gpu(), {.budget_mib = 64, .max_caster_pairs = 1024}, store);
+    ASSERT_NO_FATAL_FAILURE(Arrival().record(rig, {}));
+    const shared::FrameCounters counters = rig.counters();
+    EXPECT_EQ(rig.system().statistics().overflows, 1u);
+    EXPECT_GT(rig.system().degraded_lights().size(), 0u);
+    for (const LightStatus& status : rig.system().degraded_lights()) {
+      EXPECT_EQ(status.reason, Degradation::casters_missing);
+      EXPECT_EQ(status.missing_bytes, (counters.caster_pairs - counters.pair_limit) * 24ull);  // as max_caster_pairs says
+    }
+    rig.frame();
+    EXPECT_EQ(rig.system().statistics().overflows, 0u);
+    EXPECT_TRUE(rig.system().degraded_lights().empty());
+  }
 }
 
 }  // namespace
