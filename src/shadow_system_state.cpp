@@ -106,7 +106,7 @@ void ShadowSystem::State::read_statistics(const FrameSlot& slot) {
   statistics.serial = slot.serial;
   statistics.passes = {pass_times.data(), slot.timers.read(pass_times)};
   statistics.lights_visible = counters.lights_visible;
-  statistics.clusters = counters.clusters;
+  statistics.clusters = counters.clusters_found;
   statistics.cluster_light_pairs = counters.pairs_found;
   statistics.shadow_views = counters.views_drawn;
   statistics.caster_pairs = counters.caster_pairs;

@@ -34,9 +34,9 @@ struct Statistics {
   uint64_t serial = 0;                  ///< The frame these belong to; 0 = none finished yet.
   std::span<const PassTime> passes;     ///< In order of execution. Valid until the next begin_frame.
   uint32_t lights = 0;
-  uint32_t lights_visible = 0;          ///< With at least one cluster, or that other receivers (CameraDesc) need.
+  uint32_t lights_visible = 0;          ///< That at least one cluster holds; not those that only other receivers (CameraDesc) need.
   uint64_t clusters = 0;                ///< Occupied.
-  uint64_t cluster_light_pairs = 0;
+  uint64_t cluster_light_pairs = 0;     ///< Lights summed over clusters, without those that had no room (then overflows).
   uint32_t shadow_maps = 0;             ///< Maps in use (a light has one with fixed-cubes).
   uint32_t shadow_views = 0;            ///< Their faces.
   uint64_t pages_requested = 0;         ///< Page pool, hardware sparse: marked at the resolutions asked for.

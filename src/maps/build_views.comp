@@ -23,14 +23,14 @@ void main() {
   if (slot >= push.light_slots) return;
   LightRecord light = Lights(push.lights).v[slot];
   if (light.type == NoIndex) return;
-  // Clusters beyond the capacity have no list: they are looked up with every light.
-  bool all_used = push.all_lights != 0u || Counters(push.counters).counters.all_lights_used != 0u ||
+  // Clusters without a list are looked up with every light.
+  bool all_held = Counters(push.counters).counters.all_lights_used != 0u ||
                   Counters(push.counters).counters.clusters_found > Counters(push.counters).counters.clusters;
-  bool used = all_used || Uints(push.used).v[slot] != 0u;
-  if (used) {
-    atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
-    Uints(push.used).v[slot] |= LightIsUsed;
-  }
+  uint word = Uints(push.used).v[slot];
+  if (all_held || (word & LightIsUsed) != 0u) atomicAdd(Counters(push.counters).counters.lights_visible, 1u);
+  // Receivers that no depth buffer holds need some lights, or all, that no cluster does.
+  bool used = push.all_lights != 0u || all_held || word != 0u;
+  if (used) Uints(push.used).v[slot] = word | LightIsUsed;
   if (used && light.view_count > 0u) atomicAdd(Counters(push.counters).counters.views_drawn, light.view_count);
   FrameRecord frame = Frame(push.frame).record;
   // In the page pool a view serves maps of every resolution: its guard is that of one page.

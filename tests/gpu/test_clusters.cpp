@@ -152,6 +152,7 @@ TEST_F(Clusters, BeyondTheirRoomTakeAllLights) {
   const DeviceClusters clusters(rig);
   ASSERT_GT(clusters.counters.clusters_found, clusters.record.cluster_capacity);
   EXPECT_EQ(clusters.counters.clusters, clusters.record.cluster_capacity);
+  EXPECT_EQ(rig.system().statistics().clusters, clusters.counters.clusters_found);
   EXPECT_EQ(rig.system().statistics().overflows, 1u);
   // Clusters without a number are looked up with every light, so every light needs its map.
   EXPECT_EQ(rig.system().statistics().lights_visible, scene.lights.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "map_rig.hpp"
 #include "pair_rig.hpp"
@@ -176,10 +177,22 @@ TEST_F(OtherReceivers, AreAnsweredAsByRaysWhateverTheDepthBufferSaw) {
   }
 }
 
+/// Lights that only such points need have maps, but no cluster.
+void expect_visible_in_clusters(PairRig& rig) {
+  const DeviceClusters clusters(rig);
+  std::set<uint32_t> held;
+  for (uint32_t c = 0; c < clusters.cells.size(); ++c)
+    for (const uint32_t slot : clusters.lights_of(c)) held.insert(slot);
+  EXPECT_EQ(rig.system().statistics().lights_visible, held.size());
+  EXPECT_GT(held.size(), 0u);
+  EXPECT_LT(held.size(), rig.light_ids.size());
+}
+
 TEST_F(OtherReceivers, HaveAWholeMapOfEveryLight) {
   const SeenScene scene = fog_scene();
   PairRig rig(gpu(), {}, scene);
   rig.settle();
+  expect_visible_in_clusters(rig);
   const DeviceMaps maps(rig);
   for (uint32_t slot = 0; slot < maps.light_maps.size(); ++slot) {
     const shared::LightMaps& own = maps.light_maps[slot];
@@ -257,6 +270,7 @@ TEST_F(OtherReceivers, InBoxesHaveMapsOfTheLightsThatReachThem) {
   rig.settle();
   std::vector<bool> reached(scene.scene.lights.size());
   for (const Point& point : points_in(kBoxes, scene.scene, 4000)) reached[point.light] = true;
+  expect_visible_in_clusters(rig);
   const DeviceMaps maps(rig);
   uint32_t with = 0, without = 0, marked = 0, all = 0;
   for (uint32_t i = 0; i < scene.scene.lights.size(); ++i) {
