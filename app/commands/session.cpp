@@ -68,7 +68,8 @@ Result<void> check_show(const SharedOptions& options, const umbrage::Settings& s
   const bool has_pages =
       settings.fixed.store == umbrage::Store::page_pool || settings.fixed.store == umbrage::Store::hardware_sparse;
   if (info->needs == ShowNeeds::page_pool && !has_pages)
-    return invalid(name + ": needs maps made of pages: choose a preset with store=page_pool, such as default");
+    return invalid(name +
+                   ": needs maps made of pages: choose store=page_pool, as preset default has, or hardware_sparse");
   if (info->needs == ShowNeeds::cascades && settings.frame.cascades == umbrage::CascadeMode::none)
     return invalid(name + ": needs cascades: choose a preset such as cascades-scrolled");
   if (info->light == ShowLight::ignored && options.show_light)

@@ -201,7 +201,8 @@ const auto kFields = std::to_array<Field>({
      1024,
      1u << 26},
     {{"max_caster_pairs", "1024..1048576",
-      "(batch, view) pairs drawn per round, 152 bytes each; memory against rounds"},
+      "(batch, map) pairs drawn per round, 24 bytes each; fixed cubes: (batch, view), 152 bytes; memory against "
+      "rounds"},
      UMB_FIELD(fixed.max_caster_pairs),
      {},
      1024,
