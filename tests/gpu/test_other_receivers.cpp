@@ -317,6 +317,33 @@ TEST_F(OtherReceivers, BesideTheBoxesAreLit) {
   EXPECT_EQ(static_cast<size_t>(std::count(visibility.begin(), visibility.end(), 1.0f)), points.size());
 }
 
+/// A wall through a box, with lights behind it: that side faces away from them, and beside the box no map holds it.
+TEST_F(OtherReceivers, BesideTheBoxesLeaveDarkWhatFacesAway) {
+  SeenScene scene = fog_scene();
+  scene.scene.lights = {{.type = LightType::directional, .direction = {0.4f, -1, 1.5f}, .host_index = 0},
+                        {.position = {0, 6, -40}, .range_m = 80, .host_index = 1}};
+  scene.seen = picture(scene.camera, [](const glm::vec3& origin, const glm::vec3& direction) -> std::optional<Surface> {
+    if (direction.z >= 0) return std::nullopt;
+    return Surface{(-2 - origin.z) / direction.z, {0, 0, 1}};
+  });
+  PairRig rig(gpu(), {}, scene);
+  rig.camera().other_receivers_ws = kBoxes;
+  rig.settle();
+  const DeviceMaps maps(rig);
+  for (const uint32_t map : maps.pair_maps) ASSERT_EQ(map, shared::NoIndex);
+  Receivers behind = scene.seen;
+  for (glm::vec4& normal : behind.normals) normal = -normal;
+  const Pairs in_boxes = rig.evaluate({}, rig.camera().id, behind);  // none of what it counts is unbacked
+  EXPECT_GT(in_boxes.statistics.unmarked_taps, 0u);
+  rig.camera().other_receivers_ws = {};
+  rig.settle();
+  const Pairs anywhere = rig.evaluate({}, rig.camera().id, behind);
+  size_t beside = 0;
+  for (size_t i = 0; i < in_boxes.visibility.size(); ++i)
+    beside += in_boxes.visibility[i] == 0 && anywhere.visibility[i] == 1;
+  EXPECT_GT(beside, 100u);
+}
+
 TEST_F(OtherReceivers, InBoxesStayBackedWhenThePoolIsShort) {
   SeenScene scene = balls_scene(10, 300, 53, 48, 32);
   const std::vector<Aabb> boxes{{{-10, 1.9f, -10}, {10, 2.1f, 10}}};
