@@ -1,4 +1,5 @@
-// Shadows on real scenes against the ray tracer: wrong pixel × light pairs outside the texel band ≤ 0.5 %.
+// Shadows on real scenes against the ray tracer: of pixel × light pairs at most 0.5 % are wrong outside the texel band, 0.2 %
+// outside 3 pixels.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -16,6 +17,8 @@ struct Case {
   std::vector<std::string> options;
   const char* lights = nullptr;  ///< A lights file beside the shared scenes.
   uint32_t least_lights = 1;     ///< Visible ones.
+  double outside_band = 0.002;   ///< Wrong outside 3 pixels at most; where texels are wider on screen, what was measured and a little.
+  bool is_starved = false;       ///< Every visible light is coarser than it asks for.
 };
 
 std::ostream& operator<<(std::ostream& stream, const Case& test) { return stream << test.name; }
@@ -38,6 +41,8 @@ void expect_right_shadows(const Case& test) {
   EXPECT_GE(report["lights_visible"], test.least_lights);
   EXPECT_GT(report["pairs"]["evaluated"], 10000);
   EXPECT_LE(report["wrong_outside_texel_band"], 0.005) << report["worst_lights"].dump(1).substr(0, 2000);
+  EXPECT_LE(report["wrong_outside_band"], test.outside_band) << report["worst_lights"].dump(1).substr(0, 2000);
+  if (test.is_starved) { EXPECT_EQ(report["lights_degraded"], report["lights_visible"]); }
   EXPECT_EQ(report["unbacked_taps"], 0);
   EXPECT_EQ(report["overflows"], 0);
   testing::Test::RecordProperty("wrong_outside_band", report["wrong_outside_band"].dump());
@@ -74,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
              "animated/CesiumMan.glb",
              {"--size", kMiddle, "--time", "0.7", "--random-lights", "8", "--eye", "1,1,1.2", "--target", "0,0.7,0"},
              nullptr,
-             4},
+             4,
+             0.003},  // 43 of 17,563 pairs; 32 of them at contacts in the light of two
         Case{"stag", "animated/Stag.gltf", {"--size", kMiddle, "--time", "0.5", "--random-lights", "16"}, nullptr, 4},
         Case{"morph",
              "animated/MorphStressTest.gltf",
@@ -89,7 +95,30 @@ INSTANTIATE_TEST_SUITE_P(
              {"--size", kMiddle, "--time", "0.633", "--frames", "3", "--random-lights", "8", "--eye", "1,1,1.2",
               "--target", "0,0.7,0", "--validate"},
              nullptr,
-             4}),
+             4,
+             0.006},  // 84 of 16,038 pairs; 50 of them one light's, within its texel band
+        Case{"hall_8_paper", "hall/hall_8.glb", {"--size", kSmall, "--time", "2", "--preset", "PMCD-EB"}, nullptr, 6},
+        Case{"hall_8_view_mask", "hall/hall_8.glb", {"--size", kSmall, "--time", "2", "--preset", "CFM"}, nullptr, 6},
+        Case{"hall_8_quartered",
+             "hall/hall_8.glb",
+             {"--size", kSmall, "--time", "2", "--preset", "u4"},
+             nullptr,
+             6,
+             0.003},  // texels are wider than the band
+        Case{"hall_65_starved",
+             "hall/hall_65.glb",
+             {"--size", kSmall, "--time", "1", "--budget", "4"},
+             nullptr,
+             30,
+             0.002,
+             true},
+        Case{"house_starved",
+             "lights_and_masks/house.glb",
+             {"--size", kSmall, "--random-lights", "256", "--budget", "4"},
+             nullptr,
+             200,
+             0.004,  // mostly contacts of lights that reach a few hundred pixels each
+             true}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -102,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"accident_1", "nexuiz_accident/accident.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 60},
         Case{"accident_2", "nexuiz_accident/accident.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 60},
         Case{"dieselpower", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle}, nullptr, 60},
-        Case{"dieselpower_1", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 60},
+        Case{"dieselpower_1", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 40},
         Case{"dieselpower_2", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 60},
         Case{"oacmpctf3", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle}, nullptr, 200},
         Case{"oacmpctf3_1", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 100},
@@ -116,12 +145,14 @@ INSTANTIATE_TEST_SUITE_P(
              {"--size", kMiddle, "--camera", "1"},
              "zad_necropolis/lights_356.json",
              20},
-        Case{"houses", "builtin:houses", {"--size", kMiddle}, nullptr, 100},
+        // Most of what is wrong in these two belongs to one lamp, whose texels are wider than three pixels at this size.
+        Case{"houses", "builtin:houses", {"--size", kMiddle}, nullptr, 100, 0.0033},
         Case{"houses_lod_validated",
              "builtin:houses-lod",
              {"--size", kMiddle, "--frames", "2", "--validate"},
              nullptr,
-             100}),
+             100,
+             0.0045}),
     name_of);
 
 TEST(LongScene, TwoRunsGiveTheSameBits) {
