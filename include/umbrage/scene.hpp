@@ -62,6 +62,8 @@ struct LightDesc {
   float range_m = 10.0f;                ///< Nothing farther away is lit. > 0 and finite; unused by directional lights.
   float inner_cone_rad = 0.0f;          ///< Half-angle, 0 <= inner <= outer.
   float outer_cone_rad = 0.7853982f;    ///< Half-angle, 0 < outer <= pi/2.
+  uint32_t faces = 0x3f;                ///< What a point light shines through of the world's cube around it: bits 0…5 are its faces +x, -x,
+                                        ///< +y, -y, +z, -z; 1…63. Beyond the others it is dark and costs nothing. Unused by other types.
   float near_m = 0.0f;                  ///< Casters nearer than this (axis depth) cast no shadow; 0 = range_m / 256.
   float priority = 1.0f;                ///< Larger keeps its quality longer when memory is short.
   bool casts_shadow = true;

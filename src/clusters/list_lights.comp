@@ -25,7 +25,7 @@ void try_leaf(uint leaf, Box box, uint first) {
   uint slot = Uints(push.order).v[leaf];
   LightRecord light = Lights(push.lights).v[slot];
   if (light.type > LightSpot) return;   // directional, or dead
-  if (light_meets_box(light, box)) take(slot, first);
+  if (light_shines_on(light, box)) take(slot, first);
 }
 
 /// The tree is implicit, so that walking it needs no stack: down to the first child, on to the next sibling, up when a

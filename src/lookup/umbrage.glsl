@@ -85,6 +85,7 @@ struct Light {
   uint first_view;
   uint resolution;
   float near_m;
+  uint faces;        // LightDesc::faces
   uint map;          // of the pair of cluster and light; NoIndex: it faces away; WholeMap
 };
 
@@ -110,7 +111,7 @@ Light umbrage_light(Frame frame, Cluster cluster, uint i) {
   return Light(lights.v[slot].position_ws, lights.v[slot].type, lights.v[slot].direction_ws, lights.v[slot].range_m,
                lights.v[slot].cos_inner, lights.v[slot].cos_outer, lights.v[slot].host_index, slot, lights.v[slot].views,
                lights.v[slot].view_count, lights.v[slot].first_view, lights.v[slot].resolution, lights.v[slot].near_m,
-               pair_map(frame, cluster, i));
+               lights.v[slot].faces, pair_map(frame, cluster, i));
 }
 
 uint umbrage_light_count(Frame frame) { return UmbrageFrames(frame.address).v[0].light_count; }

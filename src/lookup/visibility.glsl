@@ -58,14 +58,17 @@ UMB_FN float visibility_mapped(Frame frame, Light light, vec3 position_ws, vec3 
 
 /// How much of a light, umbrage_light(frame, cluster, i), reaches a point: 0 nothing, 1 all. normal_ws: the surface's geometric
 /// normal, unit, on the side that is seen. Meaningful where normal · light > 0 and the light is in range, a spot's cone
-/// included; lights that cast no shadow give 1, surfaces that the cluster's normals show to face away give 0. Of
-/// points that no depth buffer saw only those are shadowed of which CameraDesc::other_receivers speaks.
+/// included; lights that cast no shadow give 1, surfaces that the cluster's normals show to face away give 0, and so does what lies
+/// beyond cube faces that a point light does not shine through. Of points that no depth buffer saw only those are shadowed of which
+/// CameraDesc::other_receivers speaks.
 float umbrage_visibility(Frame frame, Light light, vec3 position_ws, vec3 normal_ws) {
   float visibility = 1.0f;
   uint cascade = NoIndex;
   if (light.type == LightDirectional) cascade = first_cascade(frame, light.index);
   if (cascade != NoIndex) {
     visibility = visibility_cascades(frame, cascade, position_ws, normal_ws);
+  } else if (light.faces != AllCubeFaces && (light.faces >> face_of_direction(position_ws - light.position_ws) & 1u) == 0u) {
+    visibility = 0.0f;
   } else if (light.view_count != 0u) {
     visibility = visibility_mapped(frame, light, position_ws, normal_ws);
   }

@@ -67,7 +67,7 @@ void main() {
     if (map_index == NoIndex) continue;
     MapRecord map = Maps(frame.maps).v[map_index];
     LightRecord light = Lights(frame.lights).v[map.light];
-    if (!light_meets_box(light, block.positions)) continue;
+    if (!light_shines_on(light, block.positions)) continue;
     if (push.drop_facing_away != 0u && block_faces_away(block, light)) continue;
     mark_box(frame, map_index, map, block.positions);
   }

@@ -27,6 +27,6 @@ void main() {
   LightRecord light = Lights(frame.lights).v[map.light];
   for (uint i = gl_LocalInvocationIndex; i < push.box_count; i += 64u) {
     Box box = lit_part(light, Boxes(push.boxes).v[i]);
-    if (all(lessThanEqual(box.lo, box.hi)) && light_meets_box(light, box)) mark_box(frame, map_index, map, box);
+    if (all(lessThanEqual(box.lo, box.hi)) && light_shines_on(light, box)) mark_box(frame, map_index, map, box);
   }
 }

@@ -88,7 +88,8 @@ vec3 positions[Samples];
 vec3 normals[Samples];     // 0: not known
 uint slices[Samples];      // NoIndex: background
 
-bool faces_away(uint i, LightRecord light) {
+bool is_dark(uint i, LightRecord light) {
+  if (light.faces != AllCubeFaces && !light_shines_on(light, Box(positions[i], positions[i]))) return true;
   vec3 to_light = light.type == LightDirectional ? -light.direction_ws : light.position_ws - positions[i];
   // Hosts keep normals with few bits.
   return normals[i] != vec3(0.0) && dot(normals[i], to_light) + 0.01 * dot(abs(to_light), vec3(1.0)) <= 0.0;
@@ -102,7 +103,7 @@ void mark_samples(Pages pages, MapRecord map, LightRecord light, uint slice, flo
   uint view = NoIndex;
   bool together = true;
   for (uint i = 0u; i < Samples; ++i) {
-    if (slices[i] != slice || faces_away(i, light)) continue;
+    if (slices[i] != slice || is_dark(i, light)) continue;
     Place place = place_of(map, light, positions[i], slack_m);
     together = together && (view == NoIndex || view == place.view) && place.view != NoIndex;
     view = place.view;
@@ -118,7 +119,7 @@ void mark_samples(Pages pages, MapRecord map, LightRecord light, uint slice, flo
     return;
   }
   for (uint i = 0u; i < Samples; ++i) {
-    if (slices[i] != slice || faces_away(i, light)) continue;
+    if (slices[i] != slice || is_dark(i, light)) continue;
     Place place = place_of(map, light, positions[i], slack_m);
     if (place.view != NoIndex) mark_place(pages, map, light, positions[i], place);
   }
@@ -144,7 +145,7 @@ void mark_slice(FrameRecord frame, uint tile, uint slice) {
     MapRecord map = Maps(frame.maps).v[map_index];
     if (map.resolution < PageSide || map.receivers != ReceiversInSight) continue;
     LightRecord light = Lights(frame.lights).v[map.light];
-    if (light_meets_box(light, box)) mark_samples(pages, map, light, slice, slack_m);
+    if (light_shines_on(light, box)) mark_samples(pages, map, light, slice, slack_m);
   }
 }
 

@@ -13,7 +13,7 @@ void main() {
   if (light.type == NoIndex) return;
   uint end = min((gl_WorkGroupID.y + 1u) * BoxesAtOnce, push.box_count);
   for (uint i = gl_WorkGroupID.y * BoxesAtOnce; i < end; ++i) {
-    if (!light_meets_box(light, Boxes(push.boxes).v[i])) continue;
+    if (!light_shines_on(light, Boxes(push.boxes).v[i])) continue;
     atomicOr(Uints(push.used).v[slot], LightReachesBoxes);
     return;
   }

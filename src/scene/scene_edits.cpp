@@ -169,6 +169,8 @@ Result<void> GpuScene::check(const LightDesc& light) const {
     return invalid("LightDesc: 0 <= inner_cone_rad <= outer_cone_rad <= pi/2 and outer > 0");
   if (!(light.near_m >= 0) || (light.type != LightType::directional && light.near_m >= light.range_m))
     return invalid("LightDesc::near_m must be >= 0 and less than range_m");
+  if (light.faces == 0 || light.faces > shared::AllCubeFaces)
+    return invalid("LightDesc::faces must be 1…63: a bit for each cube face that a point light shines through");
   if (!(light.priority >= 0 && std::isfinite(light.priority)))
     return invalid("LightDesc::priority must be >= 0 and finite");
   return {};
@@ -187,6 +189,7 @@ void GpuScene::fill(HostLight& light) {
   record.near_m = desc.near_m > 0 ? desc.near_m : desc.range_m / 256;
   record.host_index = desc.host_index;
   record.light_mask = desc.light_mask;
+  record.faces = desc.type == LightType::point ? desc.faces : shared::AllCubeFaces;
   record.views = desc.type == LightType::directional                                             ? shared::ViewsOrtho
                  : desc.type == LightType::spot && shared::spot_is_one_view(desc.outer_cone_rad) ? shared::ViewsSpot
                                                                                                  : shared::ViewsCube;

@@ -2,6 +2,7 @@
 #ifndef UMBRAGE_SCENE_TYPES_SHARED_H
 #define UMBRAGE_SCENE_TYPES_SHARED_H
 #include "core/limits.shared.h"
+#include "views/cube_projection.shared.h"
 #include "views/shadow_view.shared.h"
 
 UMB_NAMESPACE_BEGIN
@@ -9,6 +10,8 @@ UMB_NAMESPACE_BEGIN
 UMB_CONST uint LightPoint = 0u;
 UMB_CONST uint LightSpot = 1u;
 UMB_CONST uint LightDirectional = 2u;
+/// Of LightRecord::faces.
+UMB_CONST uint AllCubeFaces = 63u;
 
 /// A light as the host described it, and where its map lies. One per slot; dead slots have type = NoIndex.
 struct LightRecord {
@@ -26,8 +29,9 @@ struct LightRecord {
   uint view_count;         // 6, 1 or 0 (casts no shadow)
   uint first_view;         // into the views; tiles of the atlas have the same numbers
   uint resolution;         // texels along a side
+  uint faces;              // of the cube around a point light, those that it shines through; others have AllCubeFaces
 };
-UMB_ASSERT_SIZE(LightRecord, 72);
+UMB_ASSERT_SIZE(LightRecord, 76);
 
 /// One instance of a mesh.
 struct InstanceRecord {
@@ -153,6 +157,15 @@ UMB_FN bool light_meets_box(LightRecord light, Box box) {
   // Signed distance of the sphere's centre to the cone's surface, for half-angles up to 90 degrees.
   float sine = sqrt(max(0.0f, 1.0f - light.cos_outer * light.cos_outer));
   return across * light.cos_outer - along * sine <= radius && along >= -radius;
+}
+
+/// The same of receivers, which a light may be cut off from (O22): true unless it certainly shines on nothing in the box. Casters are
+/// not asked: taps at the border of a face that the light shines through read texels of the next one.
+UMB_FN bool light_shines_on(LightRecord light, Box box) {
+  if (!light_meets_box(light, box)) return false;
+  if (light.faces == AllCubeFaces) return true;
+  float slack = light.range_m * 1e-4f;
+  return (face_mask(box.lo - light.position_ws - slack, box.hi - light.position_ws + slack) & light.faces) != 0u;
 }
 
 UMB_NAMESPACE_END
