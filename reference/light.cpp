@@ -10,6 +10,16 @@ float cone_angle(const Light& light, glm::vec3 to_light) {
   return std::acos(std::clamp(glm::dot(-to_light, light.direction), -1.0f, 1.0f));
 }
 
+/// Faces of the cube around a light in which `way` may lie, all that are as long along their axis but for a share `margin`.
+uint32_t faces_near(const glm::vec3& way, float margin) {
+  const glm::vec3 size = glm::abs(way);
+  const float longest = std::max({size.x, size.y, size.z});
+  uint32_t faces = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (size[axis] >= longest * (1 - margin)) faces |= 1u << (2 * axis + (way[axis] < 0 ? 1 : 0));
+  return faces;
+}
+
 float attenuation(const Light& light, glm::vec3 position, glm::vec3 to_light) {
   const float distance = std::max(glm::distance(light.position, position), 1e-6f);
   const float ratio = distance / light.range;
@@ -48,6 +58,11 @@ Evaluation expected_evaluation(const Light& light, glm::vec3 position, glm::vec3
     const float angle = cone_angle(light, to_light);
     if (angle >= light.outer_cone + margins.angle_rad) return Evaluation::forbidden;
     inside = inside && angle <= light.outer_cone - margins.angle_rad;
+  }
+  if (light.kind == app::LightKind::point) {
+    const uint32_t faces = faces_near(position - light.position, 4 * margins.angle_rad);
+    if ((faces & light.faces) == 0) return Evaluation::forbidden;
+    inside = inside && (faces & ~light.faces) == 0;
   }
   return inside ? Evaluation::required : Evaluation::open;
 }

@@ -17,6 +17,7 @@ struct Light {
   float range = 10;          ///< Metres, finite. Unused by directional lights.
   float near = 10.0f / 256;  ///< Axis depth of the near plane of its views, metres. Unused by directional lights.
   float inner_cone = 0, outer_cone = 0.7853982f;  ///< Half-angles, radians, of spots.
+  uint32_t faces = 0x3f;                          ///< Bits +x, -x, +y, -y, +z, -z: what a point light shines through.
 };
 
 /// The near plane of a light that names none of its own.
@@ -32,7 +33,7 @@ inline bool drawn_as_cube(const Light& light) {
 
 enum class Evaluation : uint8_t {
   required,   ///< In range, in the cone and facing the light, all with margin.
-  forbidden,  ///< Out of range, out of the cone or facing away, with margin.
+  forbidden,  ///< Out of range, out of the cone, beyond a face that is not shone through or facing away, with margin.
   open,       ///< Too close to a border to say, or left to the shading normal.
 };
 

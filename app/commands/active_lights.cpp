@@ -30,7 +30,8 @@ ActiveLight activate(const PosedLight& light, double irradiance_threshold, const
           .intensity = light.intensity,
           .range = finite_range(light, irradiance_threshold, bounds),
           .inner_cone = light.inner_cone,
-          .outer_cone = light.outer_cone};
+          .outer_cone = light.outer_cone,
+          .faces = light.faces};
 }
 
 std::vector<ActiveLight> active_lights(std::span<const PosedLight> scene_lights, std::span<const PosedLight> added,

@@ -29,7 +29,8 @@ reference::Light traced_light(const ActiveLight& light) {
           .range = light.range,
           .near = reference::default_near(light.range),
           .inner_cone = light.inner_cone,
-          .outer_cone = light.outer_cone};
+          .outer_cone = light.outer_cone,
+          .faces = light.faces};
 }
 
 /// What the camera of the last frame sees, read back.

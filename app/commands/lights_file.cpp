@@ -1,11 +1,16 @@
 // The lights file.
 #include "commands/lights_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <sstream>
+#include <string_view>
 
 #include "commands/json_file.hpp"
+#include "umbrage/scene.hpp"
 
 namespace app {
 namespace {
@@ -86,9 +91,39 @@ Result<void> read_cone(const JsonPlace& place, PosedLight& light) {
   return {};
 }
 
+constexpr std::string_view kFaces[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+
+/// "faces": "+x -y": names between spaces.
+Result<void> read_faces(const JsonPlace& place, PosedLight& light) {
+  const auto faces = place.member("faces");
+  if (!faces) return {};
+  const auto text = faces->text();
+  if (!text) return text.error();
+  light.faces = 0;
+  std::istringstream names(*text);
+  for (std::string name; names >> name;) {
+    const auto* const found = std::find(std::begin(kFaces), std::end(kFaces), name);
+    if (found == std::end(kFaces)) return faces->error("names \"" + name + "\": choose from +x, -x, +y, -y, +z, -z");
+    light.faces |= 1u << (found - std::begin(kFaces));
+  }
+  if (light.faces == 0) return faces->error("must name a face: +x, -x, +y, -y, +z, -z");
+  if (light.kind != LightKind::point) return faces->error("is for point lights");
+  return {};
+}
+
+std::string names_of_faces(uint32_t faces) {
+  std::string names;
+  for (size_t face = 0; face < std::size(kFaces); ++face) {
+    if ((faces >> face & 1) == 0) continue;
+    if (!names.empty()) names += ' ';
+    names += kFaces[face];
+  }
+  return names;
+}
+
 Result<PosedLight> read_light(const JsonPlace& place) {
   if (const auto object = place.expect_object(
-          {"type", "position", "direction", "color", "intensity", "range", "inner_cone_deg", "outer_cone_deg", "name"});
+          {"type", "position", "direction", "color", "intensity", "range", "inner_cone_deg", "outer_cone_deg", "faces", "name"});
       !object)
     return object.error();
   PosedLight light;
@@ -108,6 +143,7 @@ Result<PosedLight> read_light(const JsonPlace& place) {
   light.intensity = static_cast<float>(intensity);
   light.range = static_cast<float>(range);
   if (const auto read = read_cone(place, light); !read) return read.error();
+  if (const auto read = read_faces(place, light); !read) return read.error();
   return light;
 }
 
@@ -158,6 +194,7 @@ nlohmann::ordered_json lights_document(std::span<const ActiveLight> lights) {
     entry["color"] = array_of(light.color);
     entry["intensity"] = shortest_decimal(light.intensity);
     if (light.kind != LightKind::directional) entry["range"] = shortest_decimal(light.range);
+    if (light.faces != umbrage::LightDesc().faces) entry["faces"] = names_of_faces(light.faces);
     if (light.kind == LightKind::spot) {
       entry["inner_cone_deg"] = double(light.inner_cone) * kDegrees;
       entry["outer_cone_deg"] = double(light.outer_cone) * kDegrees;

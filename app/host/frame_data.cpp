@@ -60,6 +60,7 @@ gpu::GpuLight gpu_light(const ActiveLight& light) {
   made.intensity = light.color * light.intensity;
   made.cos_inner = std::cos(light.inner_cone);
   made.cos_outer = std::cos(light.outer_cone);
+  made.faces = light.kind == LightKind::point ? light.faces : umbrage::LightDesc().faces;
   return made;
 }
 

@@ -24,6 +24,7 @@ struct ActiveLight {
   float intensity = 1;
   float range = 10;  ///< Finite for point and spot.
   float inner_cone = 0, outer_cone = 0.7853982f;
+  uint32_t faces = 0x3f;  ///< Of a point light, what it shines through: umbrage::LightDesc::faces.
 };
 
 /// A camera of one frame. Reversed infinite depth unless far is finite or it is orthographic.

@@ -32,6 +32,7 @@ umbrage::LightDesc light_desc(const ActiveLight& light, uint32_t index) {
     desc.inner_cone_rad = light.inner_cone;
     desc.outer_cone_rad = light.outer_cone;
   }
+  desc.faces = light.faces;
   desc.host_index = index;
   return desc;
 }
@@ -39,7 +40,7 @@ umbrage::LightDesc light_desc(const ActiveLight& light, uint32_t index) {
 bool same(const umbrage::LightDesc& a, const umbrage::LightDesc& b) {
   const auto values = [](const umbrage::LightDesc& d) {
     return std::tuple(d.type, d.position.x, d.position.y, d.position.z, d.direction.x, d.direction.y, d.direction.z,
-                      d.range_m, d.inner_cone_rad, d.outer_cone_rad, d.host_index);
+                      d.range_m, d.inner_cone_rad, d.outer_cone_rad, d.faces, d.host_index);
   };
   return values(a) == values(b);
 }

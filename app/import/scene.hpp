@@ -121,6 +121,7 @@ struct PosedLight {
   float intensity = 1;
   float range = std::numeric_limits<float>::infinity();
   float inner_cone = 0, outer_cone = 0.7853982f;
+  uint32_t faces = 0x3f;  ///< Of a point light, what it shines through: umbrage::LightDesc::faces.
 };
 
 struct PosedCamera {

@@ -79,7 +79,7 @@ std::string lights_of(const std::string& fields) { return R"({"lights": [{)" + f
 TEST(LightsFile, ReadsEveryKindAndFillsDefaults) {
   const TemporaryFolder folder;
   const auto lights = read_lights(folder.write("lights.json", R"({"lights": [
-      {"type": "point", "position": [1, 2, 3]},
+      {"type": "point", "position": [1, 2, 3], "faces": "-x  +z"},
       {"type": "spot", "position": [0, 1, 0], "direction": [0, -2, 0], "color": [1, 0.5, 0], "intensity": 20,
        "range": 8, "inner_cone_deg": 10, "outer_cone_deg": 30, "name": "lamp"},
       {"type": "directional", "direction": [3, 0, 4], "intensity": 0.5}]})"));
@@ -89,6 +89,8 @@ TEST(LightsFile, ReadsEveryKindAndFillsDefaults) {
   EXPECT_EQ((*lights)[0].color, glm::vec3(1));
   EXPECT_EQ((*lights)[0].intensity, 1);
   EXPECT_TRUE(std::isinf((*lights)[0].range));
+  EXPECT_EQ((*lights)[0].faces, 0x12u);
+  EXPECT_EQ((*lights)[1].faces, 0x3fu);
   const PosedLight& spot = (*lights)[1];
   EXPECT_EQ(spot.kind, LightKind::spot);
   EXPECT_EQ(spot.name, "lamp");
@@ -129,6 +131,10 @@ TEST(LightsFile, RefusesWithThePlace) {
       {lights_of(point + R"("intensity": -1)"), "lights[0].intensity must be ≥ 0"},
       {lights_of(point + R"("color": [1, -1, 0])"), "lights[0].color must not have negative"},
       {lights_of(point + R"("colour": [1, 1, 1])"), "lights[0] has the unknown key \"colour\"; known are type"},
+      {lights_of(point + R"("faces": "")"), "lights[0].faces must name a face"},
+      {lights_of(point + R"("faces": "+x up")"), "lights[0].faces names \"up\": choose from +x"},
+      {lights_of(point + R"("faces": 3)"), "lights[0].faces must be a string"},
+      {lights_of(spot + R"("direction": [0, 0, 1], "faces": "-y")"), "lights[0].faces is for point lights"},
       {lights_of(point + R"("name": 7)"), "lights[0].name must be a string"},
       {lights_of(spot + R"("direction": [0, 0, 0])"), "lights[0].direction must have a length > 0"},
       {lights_of(spot + R"("direction": [0, 0, 1], "outer_cone_deg": 91)"), "lights[0].outer_cone_deg must be at most"},

@@ -76,6 +76,7 @@ struct GpuLight {
   vec3 intensity;  // Colour times candela, or lux when directional.
   float cos_inner;
   float cos_outer;
+  uint faces;  // As umbrage::LightDesc::faces.
 };
 
 /// What the passes leave behind for one frame.
@@ -172,7 +173,7 @@ struct DeformPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GpuTexture) == 32 && sizeof(GpuMaterial) == 176 && sizeof(GpuPrimitive) == 40);
-static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 52 && sizeof(GpuCounters) == 36 + 4 * 256);
+static_assert(sizeof(GpuInstance) == 72 && sizeof(GpuLight) == 56 && sizeof(GpuCounters) == 36 + 4 * 256);
 static_assert(offsetof(GpuFrame, instances) == 192 && sizeof(GpuFrame) == 240 && sizeof(GpuReflection) == 72);
 static_assert(sizeof(FramePush) == 40 && sizeof(ShowPush) == 88 && sizeof(DeformPush) == 88);
 static_assert(sizeof(GpuSubject) == 48 && sizeof(GpuLightUse) == 8);

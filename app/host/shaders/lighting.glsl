@@ -12,14 +12,15 @@ struct Lamp {
   uint type;
   vec3 direction_ws;
   float range_m, cos_inner, cos_outer;
+  uint faces;
 };
 
 Lamp lamp_of(GpuLight light) {
-  return Lamp(light.position_ws, light.type, light.direction_ws, light.range_m, light.cos_inner, light.cos_outer);
+  return Lamp(light.position_ws, light.type, light.direction_ws, light.range_m, light.cos_inner, light.cos_outer, light.faces);
 }
 /// The library's record has all of it, too, and is at hand where visibility is asked for.
 Lamp lamp_of(UmbrageLight light) {
-  return Lamp(light.position_ws, light.type, light.direction_ws, light.range_m, light.cos_inner, light.cos_outer);
+  return Lamp(light.position_ws, light.type, light.direction_ws, light.range_m, light.cos_inner, light.cos_outer, light.faces);
 }
 
 /// What of a light arrives at a point before visibility and material.
@@ -28,7 +29,7 @@ struct Incidence {
   float attenuation;  // Distance and cone.
 };
 
-/// False: the pair is not evaluated (out of range or cone, or either normal faces away).
+/// False: the pair is not evaluated (out of range, cone or faces, or either normal faces away).
 bool reaches(Lamp lamp, vec3 position_ws, vec3 geometric_normal, vec3 normal, out Incidence incidence) {
   vec3 path = lamp.position_ws - position_ws;
   float squared = dot(path, path);
@@ -44,6 +45,8 @@ bool reaches(Lamp lamp, vec3 position_ws, vec3 geometric_normal, vec3 normal, ou
     reached = reached && cosine > lamp.cos_outer;
     float cone = clamp((cosine - lamp.cos_outer) / max(lamp.cos_inner - lamp.cos_outer, 1e-3), 0.0, 1.0);
     incidence.attenuation *= cone * cone;
+  } else if (lamp.faces != UmbrageAllCubeFaces) {
+    reached = reached && (lamp.faces >> umbrage_face_of_direction(-path) & 1u) != 0u;
   }
   return reached && dot(geometric_normal, incidence.to_light) > 0.0 && dot(normal, incidence.to_light) > 0.0;
 }
