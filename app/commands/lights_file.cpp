@@ -122,8 +122,8 @@ std::string names_of_faces(uint32_t faces) {
 }
 
 Result<PosedLight> read_light(const JsonPlace& place) {
-  if (const auto object = place.expect_object(
-          {"type", "position", "direction", "color", "intensity", "range", "inner_cone_deg", "outer_cone_deg", "faces", "name"});
+  if (const auto object = place.expect_object({"type", "position", "direction", "color", "intensity", "range",
+                                               "inner_cone_deg", "outer_cone_deg", "faces", "name"});
       !object)
     return object.error();
   PosedLight light;

@@ -86,8 +86,8 @@ TEST_F(LightFaces, AreTheSameWithAnyCullingAndMarks) {
   const SeenScene some = cut(balls_scene(120, 70, 72));
   PairRig rig(gpu(), {}, some);
   const Pairs finest = rig.settle(frozen());
-  for (const CasterCulling culling : {CasterCulling::light_volume, CasterCulling::view_mask, CasterCulling::projection_map,
-                                      CasterCulling::projection_map_depth}) {
+  for (const CasterCulling culling : {CasterCulling::light_volume, CasterCulling::view_mask,
+                                      CasterCulling::projection_map, CasterCulling::projection_map_depth}) {
     const Pairs other = rig.settle(frozen(culling));
     EXPECT_EQ(differences(finest, other), 0u);
     EXPECT_EQ(other.statistics.unbacked_taps, 0u);

@@ -17,8 +17,9 @@ struct Case {
   std::vector<std::string> options;
   const char* lights = nullptr;  ///< A lights file beside the shared scenes.
   uint32_t least_lights = 1;     ///< Visible ones.
-  double outside_band = 0.002;   ///< Wrong outside 3 pixels at most; where texels are wider on screen, what was measured and a little.
-  bool is_starved = false;       ///< Every visible light is coarser than it asks for.
+  double outside_band =
+      0.002;  ///< Wrong outside 3 pixels at most; where texels are wider on screen, what was measured and a little.
+  bool is_starved = false;  ///< Every visible light is coarser than it asks for.
 };
 
 std::ostream& operator<<(std::ostream& stream, const Case& test) { return stream << test.name; }
@@ -154,6 +155,27 @@ INSTANTIATE_TEST_SUITE_P(
              100,
              0.0045}),
     name_of);
+
+/// Point lights that shine through some faces of their cube: what the ray tracer says, and nothing beyond them.
+TEST(CutLights, ShadowsAreRight) {
+  const TemporaryFolder folder;
+  const auto lights = folder.write("lights.json", R"({"lights": [
+      {"type": "point", "position": [0.3, 2.5, 1], "intensity": 12, "range": 9, "faces": "-y"},
+      {"type": "point", "position": [-3, 1.2, 2], "intensity": 9, "range": 8, "faces": "+x -z"},
+      {"type": "point", "position": [2, 1.5, 2], "intensity": 9, "range": 8, "faces": "-x -y -z"}]})");
+  for (const char* preset : {"default", "PMCD-EB", "fixed-cubes"}) {
+    SCOPED_TRACE(preset);
+    const Outcome outcome = run_program({"compare", data_file("room.gltf"), "--size", kMiddle, "--no-scene-lights",
+                                         "--lights", lights.string(), "--preset", preset});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json report = parse_json(outcome.out);
+    EXPECT_GT(report["pairs"]["evaluated"], 50000);
+    EXPECT_EQ(report["pairs"]["unexpected"], 0);
+    EXPECT_EQ(report["pairs"]["missing"], 0);
+    EXPECT_LE(report["wrong_outside_band"], 0.002);
+    EXPECT_EQ(report["unbacked_taps"], 0);
+  }
+}
 
 TEST(LongScene, TwoRunsGiveTheSameBits) {
   const std::string scene = shared_scene("nexuiz_accident/accident.gltf");
