@@ -62,7 +62,7 @@ class Program:
             kept.write_text(text)
         return json.loads(text)
 
-    def quickest(self, scene, presets, more, takes=3):
+    def quickest(self, scene, presets, more, takes=2):
         """Interleaved repetitions: of each preset the statistics with the quickest shadow passes."""
         runs = {preset: [] for preset in presets}
         for take in range(takes):
@@ -118,10 +118,10 @@ def bounds(program):
 
 
 def needs(program):
-    table("Allocated and drawn by default over the oracle's need, 640×360, budget 256 MiB",
+    table("Allocated and drawn by default over the oracle's need, 1280×720, budget 2048 MiB",
           ["Scene", "texels, M", "needed, M", "ratio", "triangles, M", "needed, M", "ratio", "lighting computations, M"])
     for scene in LARGE:
-        s = program.run("compare", scene, SMALL)
+        s = program.run("compare", scene, SIZE)
         ratio = lambda have, need: [millions(s[have]), millions(s[need]), f"{s[have] / max(1, s[need]):.1f}"]
         row([scene, *ratio("texels_allocated", "texels_needed"), *ratio("triangles_drawn", "triangles_needed"), millions(s["lighting_computations"])])
 
@@ -153,9 +153,9 @@ def starved(program):
 
 def times(program):
     names = ["default", "PMCD-EB", "fixed-cubes"]
-    table("Shadow passes, ms, 640×360, budget 256 MiB", ["Scene", *names, "PMCD-EB / default", "fixed-cubes / default"])
+    table("Shadow passes, ms, 1280×720, budget 2048 MiB", ["Scene", *names, "PMCD-EB / default", "fixed-cubes / default"])
     for scene in LARGE:
-        ms = {name: shadow_ms(stats) for name, stats in program.quickest(scene, names, [*SMALL, "--frames", "4"]).items()}
+        ms = {name: shadow_ms(stats) for name, stats in program.quickest(scene, names, [*SIZE, "--frames", "3"]).items()}
         row([scene, *(f"{ms[name]:.0f}" for name in names), *(f"{ms[name] / ms['default']:.2f}" for name in names[1:])])
 
 
@@ -171,9 +171,9 @@ def stages(program):
         "G-buffer": ["gbuffer"],
         "shade": ["shade"],
     }
-    table("Stages of default, ms, 640×360, budget 256 MiB", ["Scene", *groups, "other"])
+    table("Stages of default, ms, 1280×720, budget 2048 MiB", ["Scene", *groups, "other"])
     for scene in LARGE:
-        passes = program.quickest(scene, ["default"], [*SMALL, "--frames", "4"])["default"]["passes"]
+        passes = program.quickest(scene, ["default"], [*SIZE, "--frames", "3"])["default"]["passes"]
         known = [sum(passes.get(name, 0) for name in names) for names in groups.values()]
         row([scene, *(f"{time:.1f}" for time in known), f"{sum(passes.values()) - sum(known):.1f}"])
 
@@ -188,10 +188,10 @@ def recording(program):
 
 
 def writers(program):
-    table("The page pool's two rasterisers, ms of their passes, 640×360, budget 256 MiB", ["Scene", "triangles drawn, M", "compute", "fragments", "fragments / compute"])
+    table("The page pool's two rasterisers, ms of their passes, 1280×720, budget 2048 MiB", ["Scene", "triangles drawn, M", "compute", "fragments", "fragments / compute"])
     raster = lambda stats: sum(time for name, time in stats["passes"].items() if name in ("rasterize triangles", "bin triangles", "draw tiles", "raster fragments"))
     for scene in LARGE:
-        takes = {name: [program.run("render", scene, [*SMALL, "--frames", "3", "--set", f"writer={name}"], take) for take in range(3)] for name in ("compute", "fragments")}
+        takes = {name: [program.run("render", scene, [*SIZE, "--frames", "3", "--set", f"writer={name}"], take) for take in range(2)] for name in ("compute", "fragments")}
         ms = {name: min(raster(stats) for stats in runs) for name, runs in takes.items()}
         row([scene, millions(takes["compute"][0]["triangles_drawn"]), f"{ms['compute']:.0f}", f"{ms['fragments']:.0f}", f"{ms['fragments'] / ms['compute']:.2f}"])
 
