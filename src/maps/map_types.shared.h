@@ -124,6 +124,14 @@ UMB_FN uint page_texel(uint bits, uint first, uint bit, uint resolution) {
 /// The word of texel_bits that has a row of a page of PageSide: its rows are fewer than its units. first: of the page, in the pool.
 UMB_FN uint texel_word(uint first, uint row) { return first / PoolUnit + row; }
 
+/// Is it worth while to mark texels one by one? Not where there are more than half as many lookups as texels: most are read then,
+/// and are drawn in less time than it takes to mark them. tiles: of all cameras; lookups: of every pixel as many as clusters have
+/// lights on average.
+UMB_FN bool marks_texels(FrameCounters counters, uint tiles) {
+  float lookups = float(tiles * TileSide * TileSide) * (float(counters.pairs_found) / float(max(counters.clusters_found, 1u)));
+  return 2.0f * lookups <= float(counters.pool_units) * float(PoolUnit);
+}
+
 /// A texel within its page.
 UMB_FN uint texel_in_page(uvec2 texel, uint resolution) {
   return (texel.y % PageSide) * page_side_of(resolution) + texel.x % PageSide;

@@ -277,6 +277,7 @@ void Maps::mark_texels(gpu::Recorder& recorder, const Inputs& in, const gpu::Buf
   gpu::Scope scope(recorder, "mark texels");
   gpu::Pass pass = recorder.pass("mark texels");
   shared::MarkSamplesPush push{.frame = pass.read(in.frame),
+                               .counters = pass.read(in.counters),
                                .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
   pass.read(in.scene.light_buffer()), pass.read(in.views), pass.read(in.clusters.words());
   pass.read(in.clusters.lists()), pass.read(pair_maps_), pass.read(maps_);

@@ -150,6 +150,7 @@ void mark_slice(FrameRecord frame, uint tile, uint slice) {
 }
 
 void main() {
+  if (!marks_texels(Counters(push.counters).counters, Frame(push.frame).record.tile_count)) return;
   CameraRecord camera = Cameras(push.camera).v[0];
   // Neighbours in a subgroup are neighbours in the picture.
   uvec2 own = uvec2(gl_LocalInvocationIndex % 4u + gl_LocalInvocationIndex / 32u * 4u, gl_LocalInvocationIndex / 4u % MarkSide);

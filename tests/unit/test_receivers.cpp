@@ -147,4 +147,17 @@ TEST(Receivers, OfEmptyBoxesAreNone) {
 }
 
 }  // namespace
+TEST(MarkTexels, PaysWhereFewAreLookedUp) {
+  // 10 tiles of 32×32 pixels and 20 lights at each: 204,800 lookups.
+  shared::FrameCounters counters{};
+  counters.clusters_found = 15;
+  counters.pairs_found = 300;
+  counters.pool_units = 2 * 204800 / shared::PoolUnit;
+  EXPECT_TRUE(shared::marks_texels(counters, 10));
+  counters.pool_units -= 1;
+  EXPECT_FALSE(shared::marks_texels(counters, 10));
+  EXPECT_TRUE(shared::marks_texels(counters, 9));
+  EXPECT_TRUE(shared::marks_texels(shared::FrameCounters{}, 10)) << "nothing in sight";
+}
+
 }  // namespace umbrage::shared
