@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"accident_1", "nexuiz_accident/accident.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 60},
         Case{"accident_2", "nexuiz_accident/accident.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 60},
         Case{"dieselpower", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle}, nullptr, 60},
-        Case{"dieselpower_1", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 40},
+        Case{"dieselpower_1", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 50},
         Case{"dieselpower_2", "nexuiz_dieselpower/dieselpower.gltf", {"--size", kMiddle, "--camera", "2"}, nullptr, 60},
         Case{"oacmpctf3", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle}, nullptr, 200},
         Case{"oacmpctf3_1", "openarena_oacmpctf3/oacmpctf3.gltf", {"--size", kMiddle, "--camera", "1"}, nullptr, 100},
