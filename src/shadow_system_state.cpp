@@ -367,7 +367,7 @@ uint32_t ShadowSystem::State::shader_store() const {
 /// A box of CameraDesc::other_receivers_ws.
 bool is_sound(const Aabb& box) {
   const float sides[3][2] = {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}};
-  return std::all_of(std::begin(sides), std::end(sides), [](const float (&side)[2]) {
+  return std::all_of(std::begin(sides), std::end(sides), [](const float(&side)[2]) {
     return std::isfinite(side[0]) && std::isfinite(side[1]) && side[0] <= side[1];
   });
 }
@@ -419,6 +419,7 @@ void ShadowSystem::State::fill_block(FrameBlock& block, std::span<const shared::
   record.cameras = frame->camera_record(0);
   record.camera_count = static_cast<uint32_t>(cameras.size());
   record.tile_count = cameras.back().end_tile;
+  record.caster_error = static_cast<float>(plan.settings.caster_error_percent) / 100.0f;
   record.lights = frame->scene.light_buffer().address();
   record.light_order = frame->scene.light_order_buffer().address();
   record.counters = frame->counters.address();

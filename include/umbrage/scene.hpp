@@ -18,6 +18,9 @@ struct Stream {
   uint32_t stride_bytes = 12;
 };
 
+/// Of levels of detail at most.
+inline constexpr uint32_t MaxMeshLevels = 16;
+
 /// A range of a mesh's triangles with one alpha mask.
 struct Submesh {
   uint32_t first_index = 0;   ///< Into MeshDesc::indices; a multiple of 3.
@@ -25,6 +28,8 @@ struct Submesh {
   MaskId mask;                ///< 0: opaque.
   float alpha_cutoff = 0.5f;  ///< Texels with alpha below it do not cast (glTF alphaMode MASK).
   float alpha_factor = 1.0f;  ///< Multiplies the sampled alpha (glTF baseColorFactor.a).
+  uint32_t first_level = 0;   ///< Of MeshDesc::level_errors_m: the levels that it is part of, first_level … last_level.
+  uint32_t last_level = MaxMeshLevels - 1;
 };
 
 /// A triangle mesh. Spans are read during add_mesh only; device streams must outlive the mesh.
@@ -35,6 +40,11 @@ struct MeshDesc {
   Stream device_positions;               ///< The host's own copy, used instead of one of the library's.
   Stream device_uvs;                     ///< Likewise.
   std::span<const Submesh> submeshes;    ///< Cover indices without overlap; empty = one opaque submesh.
+  /// Levels of detail, the finest first: how far the surface of each lies from the finest at most, mesh space; 0, then more from
+  /// level to level; up to MaxMeshLevels. Empty = one level. A map of the page pool and the other virtual stores gets the
+  /// coarsest level that is off by FrameSettings::caster_error_percent of its texel at most where the instance is nearest to
+  /// the light; instances with a deformed stream, fixed cubes and cascades get the finest.
+  std::span<const float> level_errors_m;
   std::span<const std::byte> prepared;   ///< From prepare_mesh (prepare.hpp) for the same triangles; empty = prepared here.
 };
 

@@ -63,6 +63,7 @@ struct ListCascadesPush {    // list_casters
   uint64_t items;            // static ones; from `capacity` on active ones
   uint64_t casters;
   uint64_t instances;
+  uint64_t batches;
   uint64_t order;            // caster tree
   uint64_t leaves;
   uint64_t nodes;
@@ -71,7 +72,7 @@ struct ListCascadesPush {    // list_casters
   uint capacity;
   uint padding;
 };
-UMB_ASSERT_SIZE(ListCascadesPush, 88);
+UMB_ASSERT_SIZE(ListCascadesPush, 96);
 
 struct DrawCascadesPush {    // draw_casters, draw_large
   uint64_t table;

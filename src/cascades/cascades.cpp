@@ -214,6 +214,7 @@ void Cascades::record_lists(gpu::Recorder& recorder, const Inputs& in) {
                                       .items = pass.write(items_),
                                       .casters = pass.read(in.scene.caster_buffer()),
                                       .instances = pass.read(in.scene.instance_buffer()),
+                                      .batches = pass.read(in.scene.batch_buffer()),
                                       .order = pass.read(tree.order()),
                                       .leaves = pass.read(tree.leaves()),
                                       .nodes = pass.read(tree.nodes()),

@@ -17,7 +17,7 @@ CascadeRecord cascade;
 uint cascade_index;
 uint action;
 
-uint views_of(Box box, uint height) {
+uint views_of(Box box, uint height, uint i) {
   return !box_is_empty(box) && box_meets_volume(grid_box(cascade, box), cascade.origin, cascade.side) ? 1u : 0u;
 }
 

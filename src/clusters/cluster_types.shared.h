@@ -84,8 +84,10 @@ struct FrameRecord {
   uint64_t cascades;         // CascadeTable, or 0
   uint camera_count;
   uint tile_count;           // of all cameras
+  float caster_error;        // texels that simplified casters may lie off
+  uint reserved;
 };
-UMB_ASSERT_SIZE(FrameRecord, 440);
+UMB_ASSERT_SIZE(FrameRecord, 448);
 
 /// FrameRecord::store.
 UMB_CONST uint StoreAtlas = 0u;

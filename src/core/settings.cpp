@@ -120,6 +120,12 @@ const auto kFields = std::to_array<Field>({
      4,
      8192,
      true},
+    {{"caster_error_percent", "0..400",
+      "percent of a texel that simplified casters may lie off; 0: always the finest level of detail"},
+     UMB_FIELD(frame.caster_error_percent),
+     {},
+     0,
+     400},
     {{"min_resolution", "4..8192, a power of two", "texels along a map's side at least; fixed cubes: from 16 on"},
      UMB_FIELD(frame.min_resolution),
      {},
@@ -241,6 +247,7 @@ Settings fixed_cubes() {
   Settings settings;
   settings.fixed.store = Store::fixed_cubes;
   settings.frame.caster_culling = CasterCulling::light_volume;
+  settings.frame.caster_error_percent = 0;
   return settings;
 }
 
@@ -256,6 +263,7 @@ Settings paper(CasterCulling culling, ClusterBounds bounds, uint32_t maps_per_li
                     .undersampling = undersampling,
                     .receiver_grid = 1,
                     .caster_culling = culling,
+                    .caster_error_percent = 0,
                     .min_resolution = 4};
   return settings;
 }

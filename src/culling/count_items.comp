@@ -8,9 +8,7 @@ uvec2 found = uvec2(0u);   // opaque, masked
 shared uvec2 found_by[TraverseThreads];
 
 void visit(uint leaf, uint views) {
-  uint caster = Uints(push.order).v[leaf];
-  if (!caster_is_lit_by(caster, map.light_mask)) return;
-  bool masked = Batches(push.batches).v[Casters(push.casters).v[caster].batch].mask != NoIndex;
+  bool masked = Batches(push.batches).v[Casters(push.casters).v[Uints(push.order).v[leaf]].batch].mask != NoIndex;
   found += masked ? uvec2(0u, 1u) : uvec2(1u, 0u);
 }
 

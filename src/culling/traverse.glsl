@@ -17,7 +17,7 @@ layout(constant_id = 0) const bool masks_views = false;
 LightRecord light;
 
 /// Views of the light; of nodes only whether the light reaches them.
-uint views_of(Box box, uint height) {
+uint views_of(Box box, uint height, uint i) {
   if (!light_meets_box(light, box)) return 0u;
   uint all = (1u << light.view_count) - 1u;
   if (height > 0u || light.views != ViewsCube || !masks_views) return all;

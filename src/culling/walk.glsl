@@ -3,9 +3,9 @@
 // there; no barrier and no subgroup operation is needed, and the order is fixed.
 // Expects `push` with casters, instances, order, leaves, nodes, shape and counters.
 
-/// Views that a leaf (height 0) or something in a node may be drawn into, one bit each. One call for both: the threads of a
+/// Views that leaf i (height 0) or something in a node may be drawn into, one bit each. One call for both: the threads of a
 /// subgroup are at different heights most of the time.
-uint views_of(Box box, uint height);
+uint views_of(Box box, uint height, uint i);
 /// A leaf with views.
 void visit(uint leaf, uint views);
 
@@ -30,7 +30,7 @@ void walk(uint thread) {
     Box box;
     if (height == 0u) box = Boxes(push.leaves).v[i];
     else box = Boxes(push.nodes).v[shape.first[height - 1u] + i];
-    uint views = views_of(box, height);
+    uint views = views_of(box, height, i);
     if (views != 0u && height > 0u) {
       --height;
       uint begin = i * TreeWidth;
@@ -43,9 +43,11 @@ void walk(uint thread) {
   }
 }
 
-bool caster_is_lit_by(uint caster, uint light_mask) {
-  uint instance = Casters(push.casters).v[caster].instance;
-  return instance != NoIndex && (Instances(push.instances).v[instance].light_mask & light_mask) != 0u;
+/// Casters of the finest level.
+bool caster_is_lit_by(uint index, uint light_mask) {
+  CasterRecord caster = Casters(push.casters).v[index];
+  return caster.instance != NoIndex && (Instances(push.instances).v[caster.instance].light_mask & light_mask) != 0u &&
+         is_finest(Batches(push.batches).v[caster.batch]);
 }
 
 void add_wide(uint value, bool triangles) {

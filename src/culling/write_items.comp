@@ -14,7 +14,6 @@ uint triangles_drawn = 0u;
 
 void visit(uint leaf, uint faces) {
   uint caster = Uints(push.order).v[leaf];
-  if (!caster_is_lit_by(caster, map.light_mask)) return;
   BatchRecord batch = Batches(push.batches).v[Casters(push.casters).v[caster].batch];
   bool masked = batch.mask != NoIndex;
   uint item = masked ? next_item.y++ : next_item.x++;

@@ -2,6 +2,8 @@
 #include "scene/gpu_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scene/scene_push.shared.h"
 
@@ -17,6 +19,34 @@ constexpr uint32_t kBoundLights[] =
 constexpr uint32_t kMaxGroups = 65535;
 
 constexpr VkDeviceSize padded(VkDeviceSize bytes) { return (bytes + 15) & ~VkDeviceSize(15); }
+
+/// Around a box of mesh space; m: the three rows of world_from_mesh.
+shared::Box world_box(const float* m, const Aabb& box) {
+  const float centre[3] = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
+  const float half[3] = {(box.max.x - box.min.x) / 2, (box.max.y - box.min.y) / 2, (box.max.z - box.min.z) / 2};
+  shared::Box world;
+  for (int row = 0; row < 3; ++row) {
+    float at = m[4 * row + 3], extent = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      at += m[4 * row + axis] * centre[axis];
+      extent += std::abs(m[4 * row + axis]) * half[axis];
+    }
+    world.lo[row] = at - extent;
+    world.hi[row] = at + extent;
+  }
+  return world;
+}
+
+/// No length grows by more: the square root of the largest row sum of MᵀM, which is exact for turns with one scale an axis.
+float stretch_of(const float* m) {
+  float most = 1e-30f;
+  for (int i = 0; i < 3; ++i) {
+    float sum = 0;
+    for (int j = 0; j < 3; ++j) sum += std::abs(m[i] * m[j] + m[4 + i] * m[4 + j] + m[8 + i] * m[8 + j]);
+    most = std::max(most, sum);
+  }
+  return std::sqrt(most);
+}
 }  // namespace
 
 Result<ScenePipelines> ScenePipelines::create(const gpu::PipelineFactory& factory) {
@@ -49,6 +79,8 @@ void GpuScene::fill(Instance& instance, const Mesh& mesh) const {
   record.uv_stride = mesh.device_uvs.address ? mesh.device_uvs.stride_bytes / 4 : 2;
   record.light_mask = instance.desc.light_mask;
   record.flags = instance.desc.mobility == Mobility::fixed ? shared::InstanceIsFixed : 0;
+  record.box = world_box(m, mesh.bounds);
+  record.stretch = instance.desc.deformed.address ? std::numeric_limits<float>::infinity() : stretch_of(m);
 }
 
 Result<void> GpuScene::ensure_buffers() {

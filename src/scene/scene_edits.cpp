@@ -1,6 +1,7 @@
 // Edits of the scene: everything is checked before anything changes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/gpu_scene.hpp"
 #include "views/view_math.shared.h"
@@ -17,6 +18,10 @@ Error full(const char* what) {
 }
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+Aabb united(const Aabb& a, const Aabb& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
+}
 bool finite(const Affine& a) {
   return std::all_of(std::begin(a.m), std::end(a.m), [](float x) { return std::isfinite(x); });
 }
@@ -27,6 +32,26 @@ std::string check_stream(const Stream& stream, uint32_t floats, const char* name
   if (stream.stride_bytes % 4 != 0 || stream.stride_bytes < 4 * floats)
     return std::string(name) + ": the stride must be a multiple of 4 and at least " + std::to_string(4 * floats) +
            ", it is " + std::to_string(stream.stride_bytes);
+  return {};
+}
+
+/// MeshDesc::level_errors_m, and the submeshes' levels of it.
+std::string check_levels(const MeshDesc& desc) {
+  const std::span<const float> errors = desc.level_errors_m;
+  if (errors.size() > MaxMeshLevels)
+    return "MeshDesc::level_errors_m: " + std::to_string(errors.size()) + " levels; no more than " +
+           std::to_string(MaxMeshLevels);
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (i == 0 ? errors[i] == 0 : errors[i] > errors[i - 1] && std::isfinite(errors[i])) continue;
+    return "MeshDesc::level_errors_m: level " + std::to_string(i) + " is " + std::to_string(errors[i]) +
+           "; the first must be 0, each other finite and more than the one before";
+  }
+  for (size_t i = 0; i < desc.submeshes.size(); ++i) {
+    const Submesh& submesh = desc.submeshes[i];
+    if (submesh.first_level > submesh.last_level || submesh.first_level >= std::max<size_t>(errors.size(), 1))
+      return "MeshDesc: submesh " + std::to_string(i) + " is of levels " + std::to_string(submesh.first_level) +
+             " to " + std::to_string(submesh.last_level) + " of " + std::to_string(std::max<size_t>(errors.size(), 1));
+  }
   return {};
 }
 }  // namespace
@@ -48,6 +73,9 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
   std::vector<Submesh> submeshes(desc.submeshes.begin(), desc.submeshes.end());
   if (submeshes.empty()) submeshes.push_back({.index_count = static_cast<uint32_t>(desc.indices.size())});
   mesh.batches.reserve(prepared.batches.size());
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  const auto levels = static_cast<uint32_t>(desc.level_errors_m.size());
+  mesh.bounds = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
   for (const PreparedBatch& batch : prepared.batches) {
     if (batch.submesh >= submeshes.size())
       return invalid("add_mesh: the prepared bytes name a submesh that the mesh does not have");
@@ -61,6 +89,9 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
     record.mask = submesh.mask.value ? IdPool<MaskEntry>::slot_of(submesh.mask.value) : shared::NoIndex;
     record.alpha_cutoff = submesh.alpha_cutoff;
     record.alpha_factor = submesh.alpha_factor;
+    record.least_error_m = submesh.first_level < levels ? desc.level_errors_m[submesh.first_level] : 0.0f;
+    record.end_error_m = submesh.last_level + 1 < levels ? desc.level_errors_m[submesh.last_level + 1] : kInfinite;
+    if (shared::is_finest(record)) mesh.bounds = united(mesh.bounds, batch.bounds);
     mesh.masked = mesh.masked || submesh.mask.value;
     for (uint32_t i = 0; i < record.index_count; ++i) {
       const uint32_t at = 3 * batch.first_triangle + i;
@@ -88,6 +119,7 @@ Result<MeshId> GpuScene::add_mesh(const MeshDesc& desc) {
     masked = true;
     if (!masks_.find(submesh.mask.value)) return stale("mask", submesh.mask.value);
   }
+  if (auto text = check_levels(desc); !text.empty()) return invalid(text);
   if (masked && desc.uvs.empty() && !desc.device_uvs.address) return invalid("MeshDesc: a masked submesh needs uvs");
 
   const PrepareSettings prepare{.batch_triangles = settings_.batch_triangles};

@@ -33,6 +33,12 @@ struct LightRecord {
 };
 UMB_ASSERT_SIZE(LightRecord, 76);
 
+struct Box {
+  vec3 lo;
+  vec3 hi;
+};
+UMB_ASSERT_SIZE(Box, 24);
+
 /// One instance of a mesh.
 struct InstanceRecord {
   vec4 row0, row1, row2;   // world_from_mesh
@@ -42,8 +48,10 @@ struct InstanceRecord {
   uint uv_stride;          // in floats
   uint light_mask;
   uint flags;              // InstanceIsFixed
+  Box box;                 // world space, of the finest level
+  float stretch;           // lengths of the mesh are at most so many times as long in the world; infinite: deformed
 };
-UMB_ASSERT_SIZE(InstanceRecord, 80);
+UMB_ASSERT_SIZE(InstanceRecord, 112);
 
 /// Mobility::fixed.
 UMB_CONST uint InstanceIsFixed = 1u;
@@ -58,8 +66,10 @@ struct BatchRecord {
   float alpha_cutoff;
   float alpha_factor;
   uint index_count;
+  float least_error_m;     // mesh space: drawn where the surface may be off by least_error_m …
+  float end_error_m;       // … and not where it may be by end_error_m; 0 … infinity: always
 };
-UMB_ASSERT_SIZE(BatchRecord, 48);
+UMB_ASSERT_SIZE(BatchRecord, 56);
 
 /// A batch of an instance: the unit of culling.
 struct CasterRecord {
@@ -67,12 +77,6 @@ struct CasterRecord {
   uint batch;
 };
 UMB_ASSERT_SIZE(CasterRecord, 8);
-
-struct Box {
-  vec3 lo;
-  vec3 hi;
-};
-UMB_ASSERT_SIZE(Box, 24);
 
 /// A 32-way left-balanced implicit tree (O5) over `count` leaves in Morton order. Level 0 groups the leaves, node i of a
 /// level covers i*32 … i*32+31 of the level below; the last level is one node. Nodes of all levels lie in one array.
@@ -83,6 +87,14 @@ struct TreeShape {
   uint nodes[6];
 };
 UMB_ASSERT_SIZE(TreeShape, 56);
+
+/// Of the levels of detail of an instance's batches one is drawn: the coarsest that is off by no more than error_ws metres.
+UMB_FN bool is_at_level(BatchRecord batch, InstanceRecord instance, float error_ws) {
+  float error_m = error_ws / instance.stretch;
+  return error_m >= batch.least_error_m && error_m < batch.end_error_m;
+}
+/// The finest level.
+UMB_FN bool is_finest(BatchRecord batch) { return batch.least_error_m == 0.0f; }
 
 UMB_FN bool box_is_empty(Box box) { return box.lo.x > box.hi.x; }
 

@@ -120,6 +120,15 @@ UMB_FN float unit_texel_m(ShadowView view, uint kind, uint resolution) {
   return (kind == ViewsOrtho ? view.side_m : 2.0f * view.tangent) / float(resolution);
 }
 
+/// The least depth of what the views of a light see of a box: perspective along the axis of its view, ortho 1. `view`: any of them.
+UMB_FN float least_depth(ShadowView view, uint kind, vec3 box_min, vec3 box_max) {
+  if (kind == ViewsOrtho) return 1.0f;
+  vec3 apart = max(box_min - view.origin, view.origin - box_max);
+  if (kind == ViewsCube) return max(max(apart.x, apart.y), max(apart.z, view.near_m));
+  vec3 centre = (box_min + box_max) * 0.5f - view.origin;
+  return max(dot(view.w_row, centre) - dot(abs(view.w_row), (box_max - box_min) * 0.5f), view.near_m);
+}
+
 /// By how much a box of receivers is grown, on every side, so that its footprint holds all taps (E7). A texel is widest
 /// where the axis depth is largest.
 UMB_FN float view_receiver_margin_m(ShadowView view, uint kind, vec3 box_min, vec3 box_max, uint resolution) {
