@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "import/detail_levels.hpp"
+
 namespace app {
 
 using umbrage::Error;
@@ -63,6 +65,17 @@ std::vector<umbrage::Vec2> mask_uvs(const Primitive& primitive, const Texture& t
   return uvs;
 }
 
+std::vector<umbrage::Submesh> submeshes_of(const DetailLevels& levels, umbrage::Submesh like) {
+  std::vector<umbrage::Submesh> submeshes;
+  for (uint32_t level = 0; level < levels.errors_m.size(); ++level) {
+    like.first_index = levels.first_index[level];
+    like.index_count = levels.first_index[level + 1] - like.first_index;
+    like.first_level = like.last_level = level;
+    submeshes.push_back(like);
+  }
+  return submeshes;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ShadowScene>> ShadowScene::create(const GpuContext& context,
@@ -91,7 +104,8 @@ Result<void> ShadowScene::add_scene(const Source& source, const std::string& bat
     }
     umbrage::MeshId& mesh = meshes[item.primitive];
     if (mesh.value == 0) {
-      auto added = add_mesh(source, primitive, source.buffers.primitives()[item.primitive], cache, settings);
+      auto added =
+          add_mesh(source, primitive, source.buffers.primitives()[item.primitive], cache, settings, !item.deformed);
       if (!added) return added.error();
       mesh = *added;
     }
@@ -113,10 +127,9 @@ Result<umbrage::MaskId> ShadowScene::mask_of(const Texture& texture, const Textu
 
 Result<umbrage::MeshId> ShadowScene::add_mesh(const Source& source, const Primitive& primitive,
                                               const UploadedPrimitive& uploaded, BatchCache& cache,
-                                              const umbrage::PrepareSettings& settings) {
+                                              const umbrage::PrepareSettings& settings, bool has_levels) {
   const Material& material = source.scene.materials[primitive.material];
   umbrage::Submesh submesh;
-  submesh.index_count = uploaded.index_count;
   std::vector<umbrage::Vec2> uvs;
   if (material.alpha_mode == AlphaMode::mask) {
     auto mask = mask_of(material.base_color_texture, source.textures);
@@ -131,12 +144,18 @@ Result<umbrage::MeshId> ShadowScene::add_mesh(const Source& source, const Primit
   for (const glm::vec3& p : primitive.positions) positions.push_back(vec3(p));
 
   umbrage::MeshDesc mesh;
+  // Triangles that a texture cuts out, or that bend, stay as they are.
+  const DetailLevels levels = has_levels && submesh.mask.value == 0
+                                  ? make_detail_levels(primitive.positions, primitive.indices)
+                                  : one_detail_level(primitive.indices);
+  const std::vector<umbrage::Submesh> submeshes = submeshes_of(levels, submesh);
   mesh.positions = positions;
-  mesh.indices = primitive.indices;
+  mesh.indices = levels.indices;
+  mesh.level_errors_m = levels.errors_m;
   mesh.uvs = uvs;
   mesh.device_positions = {uploaded.positions, sizeof(glm::vec3)};
-  mesh.submeshes = {&submesh, 1};
-  auto prepared = cache.prepare(positions, primitive.indices, mesh.submeshes, settings);
+  mesh.submeshes = submeshes;
+  auto prepared = cache.prepare(positions, mesh.indices, mesh.submeshes, settings);
   if (!prepared) return prepared.error();
   mesh.prepared = *prepared;
   return system_.add_mesh(mesh);

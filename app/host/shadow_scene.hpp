@@ -27,7 +27,7 @@ class ShadowScene {
  private:
   explicit ShadowScene(umbrage::ShadowSystem system) : system_(std::move(system)) {}
   umbrage::Result<umbrage::MeshId> add_mesh(const Source&, const Primitive&, const UploadedPrimitive&, BatchCache&,
-                                            const umbrage::PrepareSettings&);
+                                            const umbrage::PrepareSettings&, bool has_levels);
   umbrage::Result<umbrage::MaskId> mask_of(const Texture&, const TextureTable&);
   umbrage::Result<void> add_instance(const SceneItem&, umbrage::MeshId, const Pose&);
 

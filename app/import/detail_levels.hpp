@@ -1,0 +1,25 @@
+// Levels of detail of a mesh for shadow maps: fewer triangles over the same vertices, each level with its error.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "umbrage/scene.hpp"
+
+namespace app {
+
+struct DetailLevels {
+  std::vector<uint32_t> indices;      ///< Of all levels, the finest first: those that were given.
+  std::vector<uint32_t> first_index;  ///< Of each level, and where the last one ends.
+  std::vector<float> errors_m;        ///< Mesh space: how far a level's surface lies from the finest; 0, then rising.
+};
+
+/// A mesh without coarser levels.
+DetailLevels one_detail_level(std::span<const uint32_t> indices);
+
+/// positions: mesh space; indices: a triangle list. Each level has half of the triangles of the one before, as far as the
+/// simplifier gets; its error is measured at samples (surface_distance.hpp). Small meshes have one level. Deterministic.
+DetailLevels make_detail_levels(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
+
+}  // namespace app
