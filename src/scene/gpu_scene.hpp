@@ -94,7 +94,7 @@ class GpuScene {
     std::vector<MaskId> masks;
     Stream device_positions, device_uvs;
     std::unique_ptr<gpu::Buffer> position_buffer, uv_buffer;  // stable while a frame is recorded
-    Aabb bounds;                          // of the finest level
+    Aabb bounds;                          // of all levels
     uint32_t vertex_count = 0, first_batch = 0, first_index = 0, index_count = 0, instances = 0;
     bool masked = false;
   };

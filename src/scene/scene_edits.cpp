@@ -74,7 +74,7 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
   if (submeshes.empty()) submeshes.push_back({.index_count = static_cast<uint32_t>(desc.indices.size())});
   mesh.batches.reserve(prepared.batches.size());
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
-  const auto levels = static_cast<uint32_t>(desc.level_errors_m.size());
+  const std::span<const float> errors = desc.level_errors_m;
   mesh.bounds = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
   for (const PreparedBatch& batch : prepared.batches) {
     if (batch.submesh >= submeshes.size())
@@ -89,9 +89,10 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
     record.mask = submesh.mask.value ? IdPool<MaskEntry>::slot_of(submesh.mask.value) : shared::NoIndex;
     record.alpha_cutoff = submesh.alpha_cutoff;
     record.alpha_factor = submesh.alpha_factor;
-    record.least_error_m = submesh.first_level < levels ? desc.level_errors_m[submesh.first_level] : 0.0f;
-    record.end_error_m = submesh.last_level + 1 < levels ? desc.level_errors_m[submesh.last_level + 1] : kInfinite;
-    if (shared::is_finest(record)) mesh.bounds = united(mesh.bounds, batch.bounds);
+    const size_t beyond = size_t{submesh.last_level} + 1;  // Hosts may say UINT32_MAX.
+    record.least_error_m = submesh.first_level < errors.size() ? errors[submesh.first_level] : 0.0f;
+    record.end_error_m = beyond < errors.size() ? errors[beyond] : kInfinite;
+    mesh.bounds = united(mesh.bounds, batch.bounds);
     mesh.masked = mesh.masked || submesh.mask.value;
     for (uint32_t i = 0; i < record.index_count; ++i) {
       const uint32_t at = 3 * batch.first_triangle + i;

@@ -48,7 +48,7 @@ struct InstanceRecord {
   uint uv_stride;          // in floats
   uint light_mask;
   uint flags;              // InstanceIsFixed
-  Box box;                 // world space, of the finest level
+  Box box;                 // world space, of all levels
   float stretch;           // lengths of the mesh are at most so many times as long in the world; infinite: deformed
 };
 UMB_ASSERT_SIZE(InstanceRecord, 112);
