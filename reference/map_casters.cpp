@@ -103,4 +103,19 @@ uint32_t views_to_draw(const CasterMap& map, const Box& box, CasterTest test, do
   return views;
 }
 
+double caster_error_m(const CasterMap& map, const Box& box, double texels) {
+  const CasterView& view = map.views.front();
+  const double texel_m = 2 / glm::length(glm::dvec3(view.x)) / map.resolution;
+  if (!view.perspective) return texels * texel_m;
+  double depth = map.near_m;  // Of a cube, that of the face in whose direction the box lies.
+  for (const CasterView& one : map.views) depth = std::max(depth, along(one.depth, box).low);
+  return texels * texel_m * depth;
+}
+
+uint32_t detail_level(const std::vector<double>& errors_m, double error_m) {
+  uint32_t level = 0;
+  while (level + 1 < errors_m.size() && errors_m[level + 1] <= error_m) ++level;
+  return level;
+}
+
 }  // namespace reference

@@ -30,6 +30,8 @@ struct CasterMap {
   std::vector<CasterView> views;
   std::vector<CasterReceivers> receivers;  ///< As many.
   bool whole = false;                      ///< Nothing is known of the receivers: they may be anywhere.
+  uint32_t resolution = 1;                 ///< Texels along a view's side.
+  double near_m = 0;                       ///< Perspective.
 };
 
 /// Each asks for more than the one before.
@@ -38,5 +40,11 @@ enum class CasterTest : uint8_t { light_volume, view_mask, projection_map, proje
 /// Bit v: view v. The box has met the light's volume. tolerance: the box grows by so much of its farthest distance along each
 /// axis of the view, and receivers lie so much farther away.
 uint32_t views_to_draw(const CasterMap&, const Box&, CasterTest, double tolerance = 0);
+
+/// How far casters may lie off in a map, in metres: so many texels where a box of them is nearest to the light.
+double caster_error_m(const CasterMap&, const Box&, double texels);
+
+/// The coarsest of some levels of detail that is off by no more than error_m. errors_m: of each level; 0, then rising.
+uint32_t detail_level(const std::vector<double>& errors_m, double error_m);
 
 }  // namespace reference

@@ -39,12 +39,13 @@ reference::CasterView plain_view(const shared::ShadowView& view, uint32_t kind, 
           .perspective = false};
 }
 
-void MapTables::add(const shared::LightRecord& light, uint32_t slot, bool whole, const shared::Box& scene) {
+void MapTables::add(const shared::LightRecord& light, uint32_t slot, bool whole, const shared::Box& scene,
+                    uint32_t resolution) {
   shared::MapRecord map{.light = slot,
                         .first_view = static_cast<uint32_t>(views.size()),
                         .view_count = light.view_count,
                         .kind = light.views,
-                        .resolution = 256,
+                        .resolution = resolution,
                         .pages = 2,
                         .words = 1,
                         .first_word = 0,
@@ -52,16 +53,17 @@ void MapTables::add(const shared::LightRecord& light, uint32_t slot, bool whole,
                         .faces = 0,
                         .receivers = whole ? shared::ReceiversAnywhere : shared::ReceiversInSight,
                         .light_mask = light.light_mask};
-  reference::CasterMap plain_map{.views = {}, .receivers = {}, .whole = whole};
+  reference::CasterMap plain_map{
+      .views = {}, .receivers = {}, .whole = whole, .resolution = resolution, .near_m = light.near_m};
   for (uint32_t v = 0; v < light.view_count; ++v) {
     shared::ShadowView view;
     if (light.views == shared::ViewsOrtho)
-      view = shared::ortho_view(light.direction_ws, scene.lo, scene.hi, 256, shared::ViewGuardTexels);
+      view = shared::ortho_view(light.direction_ws, scene.lo, scene.hi, resolution, shared::ViewGuardTexels);
     else if (light.views == shared::ViewsCube)
       view = shared::perspective_view(light.position_ws, light.near_m, shared::face_rotation(v), 1);
     else
       view = shared::perspective_view(light.position_ws, light.near_m, shared::view_rotation(light.direction_ws),
-                                      shared::spot_tangent(light.outer_cone_rad, 256, shared::ViewGuardTexels));
+                                      shared::spot_tangent(light.outer_cone_rad, resolution, shared::ViewGuardTexels));
     view.light = slot;
     views.push_back(view);
     plain_map.views.push_back(plain_view(view, light.views, v));
@@ -174,6 +176,7 @@ MapItems find_items(SystemRig& rig, culling::MapCulling& culling, const CasterTa
   shared::FrameRecord record{};
   record.lights = scene.light_buffer().address(), record.views = views.address(), record.maps = records.address();
   record.projection = projection.address(), record.receiver_depth = depth.address(), record.receiver_grid = maps.grid;
+  record.caster_error = rounds.caster_error;
   const gpu::Buffer frame = gpu.upload(std::vector<shared::FrameRecord>{record});
   shared::FrameCounters zero{};
   zero.map_groups[0] = zero.maps = map_count, zero.map_groups[1] = zero.map_groups[2] = 1;

@@ -23,7 +23,7 @@ struct MapTables {
 
   explicit MapTables(uint32_t cells) : grid(cells) {}
   /// Views of a light, with nothing known of receivers.
-  void add(const shared::LightRecord&, uint32_t slot, bool whole, const shared::Box& scene);
+  void add(const shared::LightRecord&, uint32_t slot, bool whole, const shared::Box& scene, uint32_t resolution = 256);
   /// A receiver of the last map; of no effect outside of its views.
   void see(const glm::vec3& receiver);
 };
@@ -54,6 +54,7 @@ struct MapRounds {
   CasterCulling mode;
   uint32_t capacity = 1 << 18;
   uint32_t rounds = 1;
+  float caster_error = 0;  // texels
 };
 
 /// Culls and checks what every list must fulfil: kinds kept apart, each pair once, faces in range, counters true.

@@ -35,9 +35,15 @@ SystemRig::SystemRig(Gpu& gpu, const StaticSettings& settings, Store store)
 }
 
 MeshId SystemRig::add(const TestMesh& mesh) {
-  const Submesh masked{.index_count = static_cast<uint32_t>(mesh.indices.size()), .mask = mask_id_};
-  MeshDesc desc{.positions = mesh.positions, .indices = mesh.indices, .uvs = mesh.uvs};
-  if (!mesh.uvs.empty()) desc.submeshes = {&masked, 1};
+  std::vector<Submesh> submeshes = mesh.submeshes;
+  if (submeshes.empty()) submeshes.push_back({.index_count = static_cast<uint32_t>(mesh.indices.size())});
+  for (Submesh& submesh : submeshes)
+    if (!mesh.uvs.empty()) submesh.mask = mask_id_;
+  const MeshDesc desc{.positions = mesh.positions,
+                      .indices = mesh.indices,
+                      .uvs = mesh.uvs,
+                      .submeshes = submeshes,
+                      .level_errors_m = mesh.level_errors_m};
   mesh_ids.push_back(take(system_.add_mesh(desc)));
   return mesh_ids.back();
 }

@@ -60,6 +60,51 @@ TestMesh masked_mesh() {
   return mesh;
 }
 
+TestMesh mesh_of_levels(std::span<const TestMesh> parts, std::span<const LevelRange> levels,
+                        std::span<const float> errors_m) {
+  TestMesh mesh;
+  mesh.level_errors_m.assign(errors_m.begin(), errors_m.end());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const TestMesh& part = parts[i];
+    const auto first_vertex = static_cast<uint32_t>(mesh.positions.size());
+    mesh.submeshes.push_back({.first_index = static_cast<uint32_t>(mesh.indices.size()),
+                              .index_count = static_cast<uint32_t>(part.indices.size()),
+                              .first_level = levels[i].first,
+                              .last_level = levels[i].last});
+    for (const uint32_t index : part.indices) mesh.indices.push_back(first_vertex + index);
+    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+    mesh.uvs.insert(mesh.uvs.end(), part.uvs.begin(), part.uvs.end());
+  }
+  return mesh;
+}
+
+TestMesh sphere_in_levels() {
+  std::vector<TestMesh> parts;
+  std::vector<LevelRange> ranges;
+  std::vector<float> errors_m;
+  for (uint32_t level = 0; level < 4; ++level) {
+    const uint32_t rings = 32 >> level, segments = rings * 3 / 2;
+    parts.push_back(sphere_mesh(rings, segments));
+    ranges.push_back({level, level});
+    // The finest is off from a true sphere itself, so this is more than what they are apart.
+    errors_m.push_back(level == 0 ? 0 : static_cast<float>(1 - std::cos(M_PI / segments) * std::cos(M_PI / 2 / rings)));
+  }
+  return mesh_of_levels(parts, ranges, errors_m);
+}
+
+TestMesh finest_of(const TestMesh& mesh) {
+  TestMesh finest = mesh;
+  finest.indices.clear(), finest.submeshes.clear(), finest.level_errors_m.clear();
+  for (const Submesh& submesh : mesh.submeshes) {
+    if (submesh.first_level > 0) continue;
+    finest.submeshes.push_back(
+        {.first_index = static_cast<uint32_t>(finest.indices.size()), .index_count = submesh.index_count});
+    const auto begin = mesh.indices.begin() + submesh.first_index;
+    finest.indices.insert(finest.indices.end(), begin, begin + submesh.index_count);
+  }
+  return finest;
+}
+
 Affine affine(const glm::mat3& linear, const glm::vec3& translation) {
   Affine out;
   for (int row = 0; row < 3; ++row) {

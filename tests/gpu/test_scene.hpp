@@ -3,6 +3,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clusters/cluster_types.shared.h"
@@ -15,6 +16,8 @@ struct TestMesh {
   std::vector<Vec3> positions;
   std::vector<Vec2> uvs;  ///< Empty: opaque; else the whole mesh has the rig's mask.
   std::vector<uint32_t> indices;
+  std::vector<Submesh> submeshes;     ///< Empty: one.
+  std::vector<float> level_errors_m;  ///< Empty: one level.
 };
 
 /// A sphere of radius 1.
@@ -25,6 +28,16 @@ TestMesh box_mesh();
 TestMesh plane_mesh(uint32_t cells);
 /// plane_mesh with texture coordinates 0…1.
 TestMesh masked_mesh();
+
+/// Meshes of `parts`, each of some levels of detail.
+struct LevelRange {
+  uint32_t first = 0, last = MaxMeshLevels - 1;
+};
+TestMesh mesh_of_levels(std::span<const TestMesh> parts, std::span<const LevelRange>, std::span<const float> errors_m);
+/// sphere_mesh in four levels, of 32 rings, 16, 8 and 4.
+TestMesh sphere_in_levels();
+/// Its finest level alone.
+TestMesh finest_of(const TestMesh&);
 
 struct TestInstance {
   uint32_t mesh = 0;
