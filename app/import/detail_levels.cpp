@@ -15,21 +15,31 @@ constexpr size_t LeastIndices = 3 * 64;  ///< Of fewer nothing is gained: they d
 constexpr float LargestError = 0.1f;     ///< Of the mesh's extent, as the simplifier estimates it.
 constexpr float LeastError = 1e-6f;      ///< Likewise: what roundings may make of none.
 
+/// Vertices that differ only in what shadows do not see are one: the simplifier keeps those where many meet, even when all but one
+/// of them are unused.
 struct Simplifier {
-  std::span<const glm::vec3> positions;
-  std::vector<uint32_t> welded;   ///< Vertices that differ only in what shadows do not see are one.
-  std::vector<uint32_t> simpler;  ///< Room for a result.
+  std::vector<glm::vec3> positions;
+  std::vector<uint32_t> indices;
+  std::vector<uint32_t> vertices;  ///< Of the mesh, by position.
+  std::vector<uint32_t> simpler;   ///< Room for a result.
 
-  Simplifier(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices)
-      : positions(vertices), welded(indices.size()), simpler(indices.size()) {
-    meshopt_generateShadowIndexBuffer(welded.data(), indices.data(), indices.size(), positions.data(), positions.size(),
-                                      sizeof(glm::vec3), sizeof(glm::vec3));
+  Simplifier(std::span<const glm::vec3> all, std::span<const uint32_t> triangles)
+      : indices(triangles.size()), simpler(triangles.size()) {
+    std::vector<glm::vec3> plain(all.begin(), all.end());
+    for (glm::vec3& position : plain) position += glm::vec3(0);  // -0 becomes 0: bits are compared.
+    std::vector<uint32_t> welded(plain.size());
+    positions.resize(meshopt_generateVertexRemap(welded.data(), triangles.data(), triangles.size(), plain.data(),
+                                                 plain.size(), sizeof(glm::vec3)));
+    vertices.resize(positions.size());
+    meshopt_remapVertexBuffer(positions.data(), plain.data(), plain.size(), sizeof(glm::vec3), welded.data());
+    meshopt_remapIndexBuffer(indices.data(), triangles.data(), triangles.size(), welded.data());
+    for (size_t i = 0; i < triangles.size(); ++i) vertices[indices[i]] = triangles[i];
   }
   float extent() const { return meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(glm::vec3)); }
   /// About so many indices, or more.
-  std::span<const uint32_t> simplify(size_t indices) {
-    const size_t made = meshopt_simplify(simpler.data(), welded.data(), welded.size(), &positions[0].x,
-                                         positions.size(), sizeof(glm::vec3), indices, LargestError, 0, nullptr);
+  std::span<const uint32_t> simplify(size_t count) {
+    const size_t made = meshopt_simplify(simpler.data(), indices.data(), indices.size(), &positions[0].x,
+                                         positions.size(), sizeof(glm::vec3), count, LargestError, 0, nullptr);
     return {simpler.data(), made};
   }
 };
@@ -46,20 +56,20 @@ DetailLevels make_detail_levels(std::span<const glm::vec3> positions, std::span<
   DetailLevels levels = one_detail_level(indices);
   if (indices.size() <= LeastIndices) return levels;
   Simplifier simplifier(positions, indices);
-  const SurfaceTree surface(positions, simplifier.welded);
+  const SurfaceTree surface(simplifier.positions, simplifier.indices);
   const float least = LeastError * simplifier.extent();
   for (size_t before = indices.size(); before > LeastIndices;) {
     const std::span<const uint32_t> level = simplifier.simplify(before / 6 * 3);
     if (level.empty() || level.size() > before / 4 * 3) break;
     before = level.size();
-    const float error = std::max(sampled_distance(positions, simplifier.welded, surface, level), least);
+    const float error = std::max(sampled_distance(simplifier.positions, simplifier.indices, surface, level), least);
     while (levels.errors_m.size() > 1 && error <= levels.errors_m.back()) {  // Coarser, and no farther off.
       levels.first_index.pop_back();
       levels.errors_m.pop_back();
       levels.indices.resize(levels.first_index.back());
     }
     if (levels.errors_m.size() == umbrage::MaxMeshLevels) break;
-    levels.indices.insert(levels.indices.end(), level.begin(), level.end());
+    for (const uint32_t index : level) levels.indices.push_back(simplifier.vertices[index]);
     levels.first_index.push_back(static_cast<uint32_t>(levels.indices.size()));
     levels.errors_m.push_back(error);
   }

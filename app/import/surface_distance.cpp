@@ -12,6 +12,7 @@ namespace app {
 namespace {
 
 constexpr uint32_t LeafTriangles = 4;
+constexpr float MostSteps = 16;  ///< Between samples along a triangle's edge.
 
 float squared_distance_to_box(const glm::vec3& point, const glm::vec3& lo, const glm::vec3& hi) {
   const glm::vec3 outside = glm::max(glm::max(lo - point, point - hi), glm::vec3(0));
@@ -42,6 +43,15 @@ float squared_distance_to_triangle(const glm::vec3& point, const std::array<glm:
 
 std::array<glm::vec3, 3> triangle(std::span<const glm::vec3> positions, std::span<const uint32_t> indices, size_t i) {
   return {positions[indices[3 * i]], positions[indices[3 * i + 1]], positions[indices[3 * i + 2]]};
+}
+
+float mean_edge(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
+  double sum = 0;
+  for (size_t i = 0; i < indices.size() / 3; ++i) {
+    const auto corners = triangle(positions, indices, i);
+    for (int corner = 0; corner < 3; ++corner) sum += glm::distance(corners[corner], corners[(corner + 1) % 3]);
+  }
+  return std::max(static_cast<float>(sum / static_cast<double>(indices.size())), std::numeric_limits<float>::min());
 }
 
 }  // namespace
@@ -113,13 +123,19 @@ float sampled_distance(std::span<const glm::vec3> positions, std::span<const uin
   const auto take = [&](const SurfaceTree& to, const glm::vec3& point) {
     most = std::max(most, to.squared_distance(point, most));
   };
+  const float spacing = mean_edge(positions, indices);
   for (size_t i = 0; i < simpler.size() / 3; ++i) {
     const auto corners = triangle(positions, simpler, i);
+    const float longest = std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
+                                    glm::distance(corners[2], corners[0])});
+    const int steps = static_cast<int>(std::clamp(longest / spacing + 0.5f, 2.0f, MostSteps));
     take(surface, (corners[0] + corners[1] + corners[2]) / 3.0f);
-    for (int corner = 0; corner < 3; ++corner) {
-      const int next = (corner + 1) % 3;
-      if (simpler[3 * i + corner] < simpler[3 * i + next])
-        take(surface, (corners[corner] + corners[next]) * 0.5f);  // Once of two.
+    for (int b = 0; b <= steps; ++b) {
+      for (int c = 0; c <= steps - b; ++c) {
+        const glm::vec3 shares = glm::vec3(steps - b - c, b, c) / static_cast<float>(steps);
+        if (std::max({shares.x, shares.y, shares.z}) < 1)  // Corners are the surface's own.
+          take(surface, corners[0] * shares.x + corners[1] * shares.y + corners[2] * shares.z);
+      }
     }
   }
   std::vector<bool> taken(positions.size());

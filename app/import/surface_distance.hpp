@@ -30,7 +30,7 @@ class SurfaceTree {
 };
 
 /// The largest distance between a surface and a simpler one over some of the same vertices, from samples: the corners of the
-/// former to the latter, the middles of edges and triangles of the latter to the former. In between it may be a little more.
+/// former to the latter, points of the latter about as dense to the former. In between it may be a little more.
 float sampled_distance(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
                        const SurfaceTree& surface, std::span<const uint32_t> simpler);
 
