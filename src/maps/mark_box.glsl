@@ -21,22 +21,24 @@ void mark_rows(FrameRecord frame, MapRecord map, uint view, ViewFootprint seen) 
   }
 }
 
+void mark_depths(FrameRecord frame, uint row, uvec2 span, uint bits) {
+  for (uint x = span.x; x < span.y; ++x)
+    if (Uints(frame.receiver_depth).v[row + x] < bits) atomicMax(Uints(frame.receiver_depth).v[row + x], bits);
+}
+
 void mark_receivers(FrameRecord frame, MapRecord map, uint view, ViewFootprint seen, float depth) {
   uint receiver = map.first_receiver + view;
+  uint side = frame.receiver_grid;
+  uint bits = floatBitsToUint(max(depth, 1e-30));
   TileRect tiles = tile_rect(seen.rect, ProjectionSide);
   for (uint y = tiles.begin.y; y < tiles.end.y; ++y) {
     uvec2 span = footprint_row(seen, y, ProjectionSide);
     set_bits(frame.projection, receiver * ProjectionSide + y, tile_span_mask(span.x, span.y).x);
+    if (side == ProjectionSide) mark_depths(frame, (receiver * side + y) * side, span, bits);
   }
-  uint side = frame.receiver_grid;
+  if (side == ProjectionSide) return;
   TileRect cells = tile_rect(seen.rect, side);
-  uint bits = floatBitsToUint(max(depth, 1e-30));
-  for (uint y = cells.begin.y; y < cells.end.y; ++y) {
-    uvec2 span = footprint_row(seen, y, side);
-    uint row = (receiver * side + y) * side;
-    for (uint x = span.x; x < span.y; ++x)
-      if (Uints(frame.receiver_depth).v[row + x] < bits) atomicMax(Uints(frame.receiver_depth).v[row + x], bits);
-  }
+  for (uint y = cells.begin.y; y < cells.end.y; ++y) mark_depths(frame, (receiver * side + y) * side, footprint_row(seen, y, side), bits);
 }
 
 /// What receivers in a box look up in a map.
