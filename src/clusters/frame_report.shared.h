@@ -10,7 +10,6 @@ struct FrameCounters {
   uint cluster_groups[3];    // of 64 clusters
   uint clusters;             // within capacity
   uint clusters_found;
-  uint pairs;                // within capacity
   uint pairs_found;
   uint lights_visible;
   uint caster_pairs;
@@ -24,7 +23,6 @@ struct FrameCounters {
   uint map_groups[3];        // a workgroup a map
   uint fit_pair_groups[3];
   uint fit_map_groups[3];
-  uint fit_cluster_groups[3];// a workgroup a cluster
   uint fit_word_groups[3];   // of 64 page words
   uint clear_groups[3];      // a workgroup per ClearUnits of the pool
   uint maps, maps_found;     // within capacity; that there would be
@@ -39,7 +37,7 @@ struct FrameCounters {
   uint large_triangles;      // of the round with most that the page rasteriser would queue
   uint pages_listed;         // hardware sparse: for the host to bind
 };
-UMB_ASSERT_SIZE(FrameCounters, 204);
+UMB_ASSERT_SIZE(FrameCounters, 188);
 
 /// What lookups count, where the host asks for it (UMBRAGE_COUNT_TAPS).
 struct TapCounts {
@@ -53,7 +51,7 @@ struct FrameReport {
   TapCounts taps;            // written by lookups
   FrameCounters counters;
 };
-UMB_ASSERT_SIZE(FrameReport, 212);
+UMB_ASSERT_SIZE(FrameReport, 196);
 
 /// Words of the used lights: bits.
 UMB_CONST uint LightIsUsed = 1u;

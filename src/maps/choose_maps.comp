@@ -182,13 +182,11 @@ void main() {
   Counters(push.counters).counters.pages = 0u;
   Counters(push.counters).counters.pool_units = 0u;
   uvec3 groups = groups_for(total.maps);
-  uvec3 cluster_groups = groups_for(Counters(push.counters).counters.clusters);
   uvec3 word_groups = groups_for((total.words + 63u) / 64u);
   for (int i = 0; i < 3; ++i) {
     Counters(push.counters).counters.map_groups[i] = groups[i];
     Counters(push.counters).counters.fit_map_groups[i] = groups[i];
     Counters(push.counters).counters.fit_pair_groups[i] = Counters(push.counters).counters.pair_groups[i];
-    Counters(push.counters).counters.fit_cluster_groups[i] = cluster_groups[i];
     Counters(push.counters).counters.fit_word_groups[i] = word_groups[i];
   }
 }

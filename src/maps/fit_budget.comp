@@ -95,7 +95,6 @@ void main() {
         Counters(push.counters).counters.clear_groups[i] = groups[i];
         Counters(push.counters).counters.fit_map_groups[i] = 0u;
         Counters(push.counters).counters.fit_pair_groups[i] = 0u;
-        Counters(push.counters).counters.fit_cluster_groups[i] = 0u;
         Counters(push.counters).counters.fit_word_groups[i] = 0u;
       }
     }

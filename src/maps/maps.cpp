@@ -261,13 +261,13 @@ void Maps::mark_blocks(gpu::Recorder& recorder, const Inputs& in) {
   shared::MarkSamplesPush push{.frame = pass.read(in.frame),
                                .counters = pass.read(in.counters),
                                .drop_facing_away = in.settings.facing_away == FacingAway::dropped};
-  pass.read(in.counters, gpu::Access::indirect_read), pass.read(in.scene.light_buffer()), pass.read(in.views);
-  pass.read(in.clusters.cells()), pass.read(in.clusters.lists()), pass.read(pair_maps_);
+  pass.read(in.scene.light_buffer()), pass.read(in.views);
+  pass.read(in.clusters.words()), pass.read(in.clusters.lists()), pass.read(pair_maps_);
   pass.write(maps_), pass.write(page_bits_), pass.write(projection_), pass.write(receiver_depth_);
   for (const clusters::FrameCamera& camera : in.cameras) {
     recorder.use_frame_set(camera.images);
     push.camera = camera.record, push.normal_encoding = static_cast<uint32_t>(camera.normal_encoding);
-    pass.dispatch_indirect(mark_blocks_, push, in.counters, offsetof(shared::FrameCounters, fit_cluster_groups));
+    pass.dispatch(mark_blocks_, push, camera.tiles.x, camera.tiles.y);
   }
   recorder.use_frame_set(in.cameras[0].images);
 }

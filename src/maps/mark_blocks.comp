@@ -1,6 +1,6 @@
 #version 460
 // Marks what mark_pages would mark for clusters, for the samples in every 4×4 pixels of each instead: what nobody sees between
-// them has no pages and keeps no casters. A workgroup a cluster, a thread a block of its tile.
+// them has no pages and keeps no casters. A workgroup a tile, a thread a block.
 #extension GL_GOOGLE_include_directive : require
 #include "maps/map_arrays.glsl"
 layout(local_size_x = 64) in;
@@ -10,6 +10,7 @@ layout(push_constant, scalar) uniform PushBlock { MarkSamplesPush push; };
 
 const uint BlockSide = 4u;
 const uint BlocksPerRow = TileSide / BlockSide;
+const uint Samples = BlockSide * BlockSide;
 
 /// Of the samples of a cluster in a block: a box around their positions and one around their normals.
 struct Block {
@@ -17,17 +18,28 @@ struct Block {
   Box normals;
 };
 
-Block read_block(CameraRecord camera, uvec2 first, uint slice) {
+vec3 positions[Samples];
+vec3 normals[Samples];     // 0: not known
+uint slices[Samples];      // NoIndex: background
+
+void read_samples(CameraRecord camera, uvec2 first) {
+  for (uint i = 0u; i < Samples; ++i) {
+    uvec2 pixel = first + uvec2(i % BlockSide, i / BlockSide);
+    slices[i] = NoIndex;
+    normals[i] = vec3(0.0);
+    if (any(greaterThanEqual(pixel, camera.size)) || !read_sample(camera, ivec2(pixel), slices[i], positions[i])) slices[i] = NoIndex;
+    else if (!read_normal(ivec2(pixel), normals[i])) normals[i] = vec3(0.0);
+  }
+}
+
+/// samples: bits of those of the slice.
+Block block_of(uint samples) {
   const Box empty = Box(vec3(1e30), vec3(-1e30));
   Block block = Block(empty, empty);
-  for (uint i = 0u; i < BlockSide * BlockSide; ++i) {
-    uvec2 pixel = first + uvec2(i % BlockSide, i / BlockSide);
-    uint sample_slice;
-    vec3 position;
-    if (any(greaterThanEqual(pixel, camera.size)) || !read_sample(camera, ivec2(pixel), sample_slice, position) || sample_slice != slice) continue;
-    block.positions = Box(min(block.positions.lo, position), max(block.positions.hi, position));
-    vec3 normal;
-    if (read_normal(ivec2(pixel), normal)) block.normals = Box(min(block.normals.lo, normal), max(block.normals.hi, normal));
+  for (uint i = 0u; i < Samples; ++i) {
+    if ((samples >> i & 1u) == 0u) continue;
+    block.positions = Box(min(block.positions.lo, positions[i]), max(block.positions.hi, positions[i]));
+    if (normals[i] != vec3(0.0)) block.normals = Box(min(block.normals.lo, normals[i]), max(block.normals.hi, normals[i]));
     else block.normals = Box(vec3(-1.0), vec3(1.0));
   }
   // Hosts compute positions with other roundings, and keep normals with few bits.
@@ -47,21 +59,7 @@ bool block_faces_away(Block block, LightRecord light) {
   return most.x + most.y + most.z <= 0.0;
 }
 
-void main() {
-  uint cluster = group_index();
-  if (cluster >= Counters(push.counters).counters.clusters) return;
-  FrameRecord frame = Frame(push.frame).record;
-  ClusterList list = ClusterLists(frame.cluster_lists).v[cluster];
-  if (list.first == NoIndex) return;   // looked up in whole maps
-  uint cell = Uints(frame.cluster_cells).v[cluster];
-  CameraRecord camera = Cameras(push.camera).v[0];
-  uint tile_index = cell / MaxSlices;
-  if (tile_index < camera.first_tile || tile_index >= camera.end_tile) return;   // of another camera, whose images are not at hand
-  tile_index -= camera.first_tile;
-  uvec2 tile = uvec2(tile_index % camera.tiles.x, tile_index / camera.tiles.x);
-  uvec2 own = uvec2(gl_LocalInvocationIndex % BlocksPerRow, gl_LocalInvocationIndex / BlocksPerRow);
-  Block block = read_block(camera, tile * TileSide + own * BlockSide, cell % MaxSlices);
-  if (block.positions.lo.x > block.positions.hi.x) return;
+void mark_block(FrameRecord frame, Block block, ClusterList list) {
   for (uint pair = list.first; pair < list.first + list.count; ++pair) {
     uint map_index = Uints(frame.pair_maps).v[pair];
     if (map_index == NoIndex) continue;
@@ -70,5 +68,24 @@ void main() {
     if (!light_shines_on(light, block.positions)) continue;
     if (push.drop_facing_away != 0u && block_faces_away(block, light)) continue;
     mark_box(frame, map_index, map, block.positions);
+  }
+}
+
+void main() {
+  if (Counters(push.counters).counters.fit_map_groups[0] == 0u) return;   // nothing to mark, or a round before fitted the budget
+  CameraRecord camera = Cameras(push.camera).v[0];
+  FrameRecord frame = Frame(push.frame).record;
+  uvec2 own = uvec2(gl_LocalInvocationIndex % BlocksPerRow, gl_LocalInvocationIndex / BlocksPerRow);
+  read_samples(camera, gl_WorkGroupID.xy * TileSide + own * BlockSide);
+  uint tile = camera.first_tile + gl_WorkGroupID.y * camera.tiles.x + gl_WorkGroupID.x;
+  uint left = 0u;   // samples
+  for (uint i = 0u; i < Samples; ++i) left |= uint(slices[i] != NoIndex) << i;
+  while (left != 0u) {
+    uint slice = slices[findLSB(left)];
+    uint samples = 0u;
+    for (uint i = 0u; i < Samples; ++i) samples |= uint(slices[i] == slice) << i;
+    left &= ~samples;
+    ClusterList list = list_of_slice(frame, tile, slice);
+    if (list.first != NoIndex) mark_block(frame, block_of(samples), list);   // else looked up in whole maps
   }
 }

@@ -126,10 +126,7 @@ void mark_samples(Pages pages, MapRecord map, LightRecord light, uint slice, flo
 }
 
 void mark_slice(FrameRecord frame, uint tile, uint slice) {
-  ClusterWord word = ClusterWords(frame.cluster_words).v[tile * SliceWords + slice / 32u];
-  uint cluster = word.first + uint(bitCount(word.occupied & ((1u << slice % 32u) - 1u)));
-  if (cluster >= frame.cluster_capacity) return;
-  ClusterList list = ClusterLists(frame.cluster_lists).v[cluster];
+  ClusterList list = list_of_slice(frame, tile, slice);
   if (list.first == NoIndex) return;   // looked up in whole maps
   Box box = Box(vec3(1e30), vec3(-1e30));
   for (uint i = 0u; i < Samples; ++i)
