@@ -279,7 +279,8 @@ void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, 
   }
   {
     gpu::Scope scope(recorder, "caster tree");
-    caster_tree_.record(recorder, pipelines.tree, caster_boxes_.buffer(), caster_slots());
+    if (moved_count_ > 0 || !has_trees_)
+      caster_tree_.record(recorder, pipelines.tree, caster_boxes_.buffer(), caster_slots());
   }
   gpu::Scope scope(recorder, "light tree");
   if (lights_changed_ && light_slots() > 0) {
@@ -288,7 +289,8 @@ void GpuScene::record(gpu::Recorder& recorder, const ScenePipelines& pipelines, 
         .lights = pass.read(light_buffer()), .boxes = pass.write(light_boxes_), .count = light_slots()};
     pass.dispatch(pipelines.bound_lights, push, (light_slots() + 63) / 64);
   }
-  light_tree_.record(recorder, pipelines.tree, light_boxes_, light_slots());
+  if (lights_changed_ || !has_trees_) light_tree_.record(recorder, pipelines.tree, light_boxes_, light_slots());
+  has_trees_ = true;
 }
 
 }  // namespace umbrage::scene

@@ -55,7 +55,7 @@ class GpuScene {
   /// Sizes buffers and stages the edits for the frame; the uploader has room for so many bytes more. On error the edits
   /// stay pending.
   Result<void> upload(gpu::Uploader&, gpu::RetireQueue&, uint64_t serial, VkDeviceSize bytes_beside = 0);
-  /// Copies, boxes, trees.
+  /// Copies, boxes of what moved; trees when something did.
   void record(gpu::Recorder&, const ScenePipelines&, gpu::Uploader&, gpu::RetireQueue&, uint64_t serial);
 
   struct MaskEntry { VkImageView view; VkSampler sampler; uint32_t users = 0; };
@@ -140,7 +140,7 @@ class GpuScene {
   std::vector<const gpu::Buffer*> new_geometry_;
   VkDeviceAddress moved_address_ = 0;
   uint32_t moved_count_ = 0;
-  bool lights_changed_ = false;
+  bool lights_changed_ = false, has_trees_ = false;
 
   gpu::GrownBuffer light_buffer_, instance_buffer_, batch_buffer_, caster_buffer_, index_buffer_, caster_boxes_, light_order_buffer_;
   gpu::Buffer light_boxes_;
