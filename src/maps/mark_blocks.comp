@@ -2,6 +2,7 @@
 // Marks what mark_pages would mark for clusters, for the samples in every 4×4 pixels of each instead: what nobody sees between
 // them has no pages and keeps no casters. A workgroup a tile, a thread a block.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "maps/map_arrays.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform PushBlock { MarkSamplesPush push; };
@@ -23,7 +24,7 @@ vec3 normals[Samples];     // 0: not known
 uint slices[Samples];      // NoIndex: background
 
 void read_samples(CameraRecord camera, uvec2 first) {
-  for (uint i = 0u; i < Samples; ++i) {
+  [[unroll]] for (uint i = 0u; i < Samples; ++i) {
     uvec2 pixel = first + uvec2(i % BlockSide, i / BlockSide);
     slices[i] = NoIndex;
     normals[i] = vec3(0.0);
@@ -36,11 +37,13 @@ void read_samples(CameraRecord camera, uvec2 first) {
 Block block_of(uint samples) {
   const Box empty = Box(vec3(1e30), vec3(-1e30));
   Block block = Block(empty, empty);
-  for (uint i = 0u; i < Samples; ++i) {
-    if ((samples >> i & 1u) == 0u) continue;
-    block.positions = Box(min(block.positions.lo, positions[i]), max(block.positions.hi, positions[i]));
-    if (normals[i] != vec3(0.0)) block.normals = Box(min(block.normals.lo, normals[i]), max(block.normals.hi, normals[i]));
-    else block.normals = Box(vec3(-1.0), vec3(1.0));
+  [[unroll]] for (uint i = 0u; i < Samples; ++i) {
+    bool is_in = (samples >> i & 1u) != 0u;
+    block.positions.lo = min(block.positions.lo, is_in ? positions[i] : block.positions.lo);
+    block.positions.hi = max(block.positions.hi, is_in ? positions[i] : block.positions.hi);
+    bool is_known = normals[i] != vec3(0.0);
+    block.normals.lo = min(block.normals.lo, is_in ? is_known ? normals[i] : vec3(-1.0) : block.normals.lo);
+    block.normals.hi = max(block.normals.hi, is_in ? is_known ? normals[i] : vec3(1.0) : block.normals.hi);
   }
   // Hosts compute positions with other roundings, and keep normals with few bits.
   vec3 largest = max(abs(block.positions.lo), abs(block.positions.hi));
@@ -79,11 +82,11 @@ void main() {
   read_samples(camera, gl_WorkGroupID.xy * TileSide + own * BlockSide);
   uint tile = camera.first_tile + gl_WorkGroupID.y * camera.tiles.x + gl_WorkGroupID.x;
   uint left = 0u;   // samples
-  for (uint i = 0u; i < Samples; ++i) left |= uint(slices[i] != NoIndex) << i;
+  [[unroll]] for (uint i = 0u; i < Samples; ++i) left |= uint(slices[i] != NoIndex) << i;
   while (left != 0u) {
     uint slice = slices[findLSB(left)];
     uint samples = 0u;
-    for (uint i = 0u; i < Samples; ++i) samples |= uint(slices[i] == slice) << i;
+    [[unroll]] for (uint i = 0u; i < Samples; ++i) samples |= uint(slices[i] == slice) << i;
     left &= ~samples;
     ClusterList list = list_of_slice(frame, tile, slice);
     if (list.first != NoIndex) mark_block(frame, block_of(samples), list);   // else looked up in whole maps

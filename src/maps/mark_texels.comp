@@ -2,6 +2,7 @@
 // Marks the texels that the nine taps of each depth-buffer sample read, of every light that reaches it: no others need be
 // drawn. For pages of PageSide that have their place; smaller maps are drawn whole. A thread 2×2 pixels.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "maps/map_arrays.glsl"
 layout(local_size_x = MarkSide * MarkSide) in;
 layout(push_constant, scalar) uniform PushBlock { MarkSamplesPush push; };
@@ -102,14 +103,14 @@ void mark_samples(Pages pages, MapRecord map, LightRecord light, uint slice, flo
   float reach = 0.0;
   uint view = NoIndex;
   bool together = true;
-  for (uint i = 0u; i < Samples; ++i) {
-    if (slices[i] != slice || is_dark(i, light)) continue;
+  [[unroll]] for (uint i = 0u; i < Samples; ++i) {
+    bool is_lit = slices[i] == slice && !is_dark(i, light);
     Place place = place_of(map, light, positions[i], slack_m);
-    together = together && (view == NoIndex || view == place.view) && place.view != NoIndex;
-    view = place.view;
-    lo = min(lo, place.texels);
-    hi = max(hi, place.texels);
-    reach = max(reach, 1.0 + place.slack);
+    together = together && (!is_lit || ((view == NoIndex || view == place.view) && place.view != NoIndex));
+    view = is_lit ? place.view : view;
+    lo = min(lo, is_lit ? place.texels : lo);
+    hi = max(hi, is_lit ? place.texels : hi);
+    reach = max(reach, is_lit ? 1.0 + place.slack : 0.0);
   }
   vec2 size = hi - lo;
   bool inside = min(lo.x, lo.y) > reach && max(hi.x, hi.y) < float(map.resolution) - reach;
