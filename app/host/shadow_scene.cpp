@@ -146,7 +146,7 @@ Result<umbrage::MeshId> ShadowScene::add_mesh(const Source& source, const Primit
   umbrage::MeshDesc mesh;
   // Triangles that a texture cuts out, or that bend, stay as they are.
   const DetailLevels levels = has_levels && submesh.mask.value == 0
-                                  ? make_detail_levels(primitive.positions, primitive.indices)
+                                  ? cache.levels(primitive.positions, primitive.indices)
                                   : one_detail_level(primitive.indices);
   const std::vector<umbrage::Submesh> submeshes = submeshes_of(levels, submesh);
   mesh.positions = positions;

@@ -19,20 +19,21 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view Extension = ".umbp";
+constexpr std::string_view BatchesExtension = ".umbp", LevelsExtension = ".umbl";
 
-fs::path file_name(uint64_t key) {
+fs::path file_name(uint64_t key, std::string_view extension) {
   std::array<char, 16> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), key, 16).ptr;
   const std::string_view hex(digits.data(), end);
-  return std::string(digits.size() - hex.size(), '0') + std::string(hex) + std::string(Extension);
+  return std::string(digits.size() - hex.size(), '0') + std::string(hex) + std::string(extension);
 }
 
 /// Also what an interrupted run left behind: a key, the extension, perhaps a random suffix.
 bool is_ours(const fs::path& file) {
   const std::string name = file.filename().string();
-  return name.size() >= 16 + Extension.size() && name.find_first_not_of("0123456789abcdef") == 16 &&
-         std::string_view(name).substr(16, Extension.size()) == Extension;
+  const auto extension = std::string_view(name).substr(std::min<size_t>(name.size(), 16), BatchesExtension.size());
+  return name.find_first_not_of("0123456789abcdef") == 16 &&
+         (extension == BatchesExtension || extension == LevelsExtension);
 }
 
 /// More than prepare_mesh makes of so many indices, whatever the settings: a longer file is not worth reading.
@@ -83,19 +84,38 @@ umbrage::Result<std::vector<std::byte>> BatchCache::prepare(std::span<const umbr
   if (folder_.empty()) return umbrage::prepare_mesh(positions, indices, submeshes, settings);
   try {
     const uint64_t key = umbrage::prepare_key(positions, indices, submeshes, settings);
-    const fs::path file = folder_ / file_name(key);
+    const fs::path file = folder_ / file_name(key, BatchesExtension);
     const size_t submesh_count = std::max<size_t>(submeshes.size(), 1);
     auto kept = read(file, most_bytes(indices.size()));
     if (kept && belongs_to(*kept, key, positions.size(), indices.size(), submesh_count)) {
-      std::error_code ignored;
-      fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // What prune() goes by.
-      ++hits_;
+      found(file);
       return std::move(*kept);
     }
     auto made = umbrage::prepare_mesh(positions, indices, submeshes, settings);
     if (made) store(file, *made);
     return made;
   } catch (const std::bad_alloc&) { return umbrage::Error{umbrage::ErrorCode::out_of_memory, "batch cache"}; }
+}
+
+DetailLevels BatchCache::levels(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
+  if (folder_.empty() || indices.size() <= MostUnsimplifiedIndices) return make_detail_levels(positions, indices);
+  const uint64_t key = detail_levels_key(positions, indices);
+  const fs::path file = folder_ / file_name(key, LevelsExtension);
+  if (const auto kept = read(file, most_bytes(2 * indices.size()))) {
+    if (auto levels = detail_levels_of(*kept, key, positions.size(), indices)) {
+      found(file);
+      return std::move(*levels);
+    }
+  }
+  DetailLevels made = make_detail_levels(positions, indices);
+  store(file, bytes_of(made, key));
+  return made;
+}
+
+void BatchCache::found(const fs::path& file) {
+  std::error_code ignored;
+  fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // What prune() goes by.
+  ++hits_;
 }
 
 void BatchCache::store(const fs::path& file, std::span<const std::byte> bytes) {

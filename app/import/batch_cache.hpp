@@ -1,4 +1,4 @@
-// Prepared batches kept on disk between runs, found again by the content they were made from.
+// What is made of meshes once, batches and levels of detail, kept on disk between runs and found again by the content it was made from.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -6,11 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "import/detail_levels.hpp"
 #include "umbrage/prepare.hpp"
 
 namespace app {
 
-/// A folder of prepared meshes. A folder that cannot be made, read or written only costs the time that it would have saved.
+/// A folder of prepared meshes and levels. A folder that cannot be made, read or written only costs the time that it would have saved.
 /// Several processes may share one: files appear whole, by renaming. Not thread-safe itself.
 class BatchCache {
  public:
@@ -27,9 +28,13 @@ class BatchCache {
                                                   std::span<const umbrage::Submesh> submeshes,
                                                   const umbrage::PrepareSettings& settings);
 
+  /// make_detail_levels, or its levels of an earlier time; likewise.
+  DetailLevels levels(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
+
   uint64_t hits() const { return hits_; }
 
  private:
+  void found(const std::filesystem::path& file);
   void store(const std::filesystem::path& file, std::span<const std::byte> bytes);
   void prune();
 

@@ -1,13 +1,18 @@
 // Levels of detail of a mesh for shadow maps: fewer triangles over the same vertices, each level with its error.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "umbrage/scene.hpp"
 
 namespace app {
+
+/// Meshes of no more indices have one level: they do not fill a batch.
+inline constexpr size_t MostUnsimplifiedIndices = 3 * 64;
 
 struct DetailLevels {
   std::vector<uint32_t> indices;      ///< Of all levels, the finest first: those that were given.
@@ -21,5 +26,13 @@ DetailLevels one_detail_level(std::span<const uint32_t> indices);
 /// positions: mesh space; indices: a triangle list. Each level has half of the triangles of the one before, as far as the
 /// simplifier gets; its error is measured at samples (surface_distance.hpp). Small meshes have one level. Deterministic.
 DetailLevels make_detail_levels(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
+
+/// A name for the levels of a mesh: a hash of what make_detail_levels is given.
+uint64_t detail_levels_key(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
+/// For a file: versioned, with a checksum.
+std::vector<std::byte> bytes_of(const DetailLevels&, uint64_t key);
+/// What bytes_of was given; nothing unless the bytes are whole, of this key, and levels of such a mesh.
+std::optional<DetailLevels> detail_levels_of(std::span<const std::byte> bytes, uint64_t key, size_t position_count,
+                                             std::span<const uint32_t> indices);
 
 }  // namespace app

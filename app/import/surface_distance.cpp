@@ -123,6 +123,13 @@ float sampled_distance(std::span<const glm::vec3> positions, std::span<const uin
   const auto take = [&](const SurfaceTree& to, const glm::vec3& point) {
     most = std::max(most, to.squared_distance(point, most));
   };
+  std::vector<bool> taken(positions.size());
+  for (const uint32_t vertex : simpler) taken[vertex] = true;
+  const SurfaceTree simple(positions, simpler);
+  for (const uint32_t vertex : indices) {
+    if (!taken[vertex]) take(simple, positions[vertex]);
+    taken[vertex] = true;
+  }
   const float spacing = mean_edge(positions, indices);
   for (size_t i = 0; i < simpler.size() / 3; ++i) {
     const auto corners = triangle(positions, simpler, i);
@@ -137,13 +144,6 @@ float sampled_distance(std::span<const glm::vec3> positions, std::span<const uin
           take(surface, corners[0] * shares.x + corners[1] * shares.y + corners[2] * shares.z);
       }
     }
-  }
-  std::vector<bool> taken(positions.size());
-  for (const uint32_t vertex : simpler) taken[vertex] = true;
-  const SurfaceTree simple(positions, simpler);
-  for (const uint32_t vertex : indices) {
-    if (!taken[vertex]) take(simple, positions[vertex]);
-    taken[vertex] = true;
   }
   return std::sqrt(most);
 }

@@ -5,8 +5,8 @@ add_executable(test_prepare
   ${CMAKE_CURRENT_LIST_DIR}/test_prepared_bytes.cpp ${CMAKE_CURRENT_LIST_DIR}/prepare_reference.cpp ${prepare_meshes})
 add_executable(test_prepare_memory ${CMAKE_CURRENT_LIST_DIR}/test_prepare_memory.cpp)
 add_executable(test_batch_cache
-  ${CMAKE_CURRENT_LIST_DIR}/test_batch_cache.cpp ${PROJECT_SOURCE_DIR}/app/import/batch_cache.cpp ${prepare_meshes})
-target_include_directories(test_batch_cache PRIVATE ${PROJECT_SOURCE_DIR}/app)
+  ${CMAKE_CURRENT_LIST_DIR}/test_batch_cache.cpp ${prepare_meshes})
+target_link_libraries(test_batch_cache PRIVATE app_import)
 
 foreach(name test_prepare test_prepare_memory test_batch_cache)
   umbrage_flags(${name})

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <limits>
 
 #include "import/batch_cache.hpp"
 #include "prepare_meshes.hpp"
@@ -163,6 +164,83 @@ TEST_F(BatchCacheTest, ForgetsLeftoversOfInterruptedRuns) {
   BatchCache cache(folder_, 100'000);
   from(cache, wavy_grid(9, 9));
   EXPECT_FALSE(fs::exists(leftover));
+}
+
+struct LevelsMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<uint32_t> indices;
+};
+
+LevelsMesh with_levels(uint32_t side) {
+  const TriangleMesh grid = wavy_grid(side, side);
+  LevelsMesh mesh{.indices = grid.indices};
+  for (const umbrage::Vec3& p : grid.positions) mesh.positions.emplace_back(p.x, p.y, p.z);
+  return mesh;
+}
+
+void expect_levels(BatchCache& cache, const LevelsMesh& mesh) {
+  const app::DetailLevels expected = app::make_detail_levels(mesh.positions, mesh.indices);
+  const app::DetailLevels found = cache.levels(mesh.positions, mesh.indices);
+  EXPECT_EQ(found.indices, expected.indices);
+  EXPECT_EQ(found.first_index, expected.first_index);
+  EXPECT_EQ(found.errors_m, expected.errors_m);
+}
+
+TEST_F(BatchCacheTest, FindsLevelsOfDetailAgain) {
+  const LevelsMesh mesh = with_levels(20), other = with_levels(21), small = with_levels(4);
+  ASSERT_GT(app::make_detail_levels(mesh.positions, mesh.indices).errors_m.size(), 2u);
+  BatchCache cache(folder_);
+  expect_levels(cache, mesh);
+  expect_levels(cache, mesh);
+  EXPECT_EQ(cache.hits(), 1u);
+  expect_levels(cache, other);
+  LevelsMesh moved = mesh;
+  moved.positions[7].y += 1;
+  expect_levels(cache, moved);
+  LevelsMesh turned = mesh;
+  std::swap(turned.indices[0], turned.indices[1]);
+  expect_levels(cache, turned);
+  EXPECT_EQ(cache.hits(), 1u);
+  EXPECT_EQ(files().size(), 4u);
+  expect_levels(cache, small);
+  EXPECT_EQ(files().size(), 4u) << "one level is not worth a file";
+}
+
+TEST_F(BatchCacheTest, MakesLevelsAnewWhereTheirFileIsDamagedOrForeign) {
+  const LevelsMesh mesh = with_levels(20), other = with_levels(21);
+  const uint64_t key = app::detail_levels_key(mesh.positions, mesh.indices);
+  app::DetailLevels levels = app::make_detail_levels(mesh.positions, mesh.indices);
+  const Bytes good = app::bytes_of(levels, key);
+  BatchCache cache(folder_);
+  expect_levels(cache, mesh);
+  const fs::path file = files().at(0);
+  std::vector<Bytes> bad{{}, Bytes(5000, std::byte{7}), Bytes(3), Bytes(good.begin(), good.end() - 4), Bytes(good.begin(), good.begin() + 24)};
+  for (size_t byte = 0; byte < good.size(); byte += 1 + byte / 16) {
+    bad.push_back(good);
+    bad.back()[byte] ^= std::byte{4};
+  }
+  bad.push_back(app::bytes_of(app::make_detail_levels(other.positions, other.indices), key));
+  // Whole and of this key, but no levels of the mesh.
+  const auto spoilt = [&](auto&& spoil) {
+    app::DetailLevels wrong = levels;
+    spoil(wrong);
+    bad.push_back(app::bytes_of(wrong, key));
+  };
+  spoilt([&](auto& wrong) { wrong.indices.back() = static_cast<uint32_t>(mesh.positions.size()); });
+  spoilt([](auto& wrong) { wrong.errors_m[1] = 0; });
+  spoilt([](auto& wrong) { wrong.errors_m.back() = std::numeric_limits<float>::infinity(); });
+  spoilt([](auto& wrong) { wrong.errors_m[1] = std::numeric_limits<float>::quiet_NaN(); });
+  spoilt([](auto& wrong) { wrong.first_index[2] += 1; });
+  spoilt([](auto& wrong) { wrong.first_index.back() += 3; });
+  for (const Bytes& content : bad) {
+    write(file, content);
+    ASSERT_FALSE(app::detail_levels_of(content, key, mesh.positions.size(), mesh.indices));
+  }
+  write(file, bad.back());
+  expect_levels(cache, mesh);
+  EXPECT_EQ(cache.hits(), 0u);
+  expect_levels(cache, mesh);
+  EXPECT_EQ(cache.hits(), 1u);
 }
 
 TEST_F(BatchCacheTest, DoesNotStoreWhatIsBeyondItsLimit) {
