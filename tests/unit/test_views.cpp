@@ -1,4 +1,4 @@
-// The math of shadow views: cube faces, taps across edges, spot and ortho frames, depth keys, bias pieces, solid angles.
+// The math of shadow views: cube faces, taps across edges, spot and ortho frames, depth keys, bias pieces, solid angles, least depths.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "tests/unit/box_clipper.hpp"
 #include "views/cube_face.shared.h"
+#include "views/shadow_view.shared.h"
 #include "views/view_math.shared.h"
 
 namespace umbrage::test {
@@ -169,6 +170,86 @@ TEST(SpotViews, HoldTheConeAndTheGuard) {
       const float rim = tan(outer) / spot_tangent(outer, resolution, 2);
       EXPECT_NEAR((1 - rim) * 0.5f * static_cast<float>(resolution), 2, 1e-3f);
     }
+}
+
+/// Boxes of every size around and beside an origin; some are flat or points.
+struct RandomBox {
+  vec3 lo, hi;
+  RandomBox(const vec3& origin, int kind, std::mt19937& engine) {
+    std::normal_distribution<float> normal;
+    const auto random = [&] { return vec3(normal(engine), normal(engine), normal(engine)); };
+    vec3 half_size = abs(random()) * exp(normal(engine) - 1);
+    if (kind % 6 == 0) half_size[kind / 6 % 3] = 0;
+    if (kind % 13 == 0) half_size = vec3(0);
+    const vec3 centre = origin + exp(normal(engine)) * random();
+    lo = centre - half_size, hi = centre + half_size;
+  }
+  vec3 at(const vec3& shares) const { return lo + (hi - lo) * shares; }
+};
+
+/// The least depth of a box's points, by `depth` of a point: at its corners, at the one nearest to the origin, and at random ones.
+template <class Depth>
+float least_of_points(const RandomBox& box, const vec3& origin, std::mt19937& engine, const Depth& depth) {
+  std::uniform_real_distribution<float> unit(0, 1);
+  float least = depth(clamp(origin, box.lo, box.hi));
+  for (int corner = 0; corner < 8; ++corner)
+    least = min(least, depth(box.at(vec3(corner & 1, corner >> 1 & 1, corner >> 2))));
+  for (int point = 0; point < 200; ++point)
+    least = min(least, depth(box.at({unit(engine), unit(engine), unit(engine)})));
+  return least;
+}
+
+TEST(LeastDepths, AreThoseOfTheNearestPointOfABox) {
+  std::mt19937 engine(13);
+  std::normal_distribution<float> normal;
+  int cut_off = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const vec3 origin = 5.0f * vec3(normal(engine), normal(engine), normal(engine));
+    const float near_m = i % 3 == 0 ? 0.7f : 0.02f;
+    const RandomBox box(origin, i, engine);
+    const float rounding = 2e-6f * (length(origin) + length(box.hi - box.lo) + 10);
+
+    // The axis depth of whichever face a direction falls on.
+    const float cube = least_of_points(box, origin, engine, [&](const vec3& p) {
+      const vec3 r = p - origin;
+      return face_coordinates(face_of_direction(r), r).z;
+    });
+    for (uint face = 0; face < CubeFaceCount; ++face) {
+      const ShadowView view = perspective_view(origin, near_m, face_rotation(face), 1);
+      ASSERT_NEAR(least_depth(view, ViewsCube, box.lo, box.hi), max(cube, near_m), rounding) << "box " << i;
+    }
+    cut_off += cube < near_m;
+
+    const mat3 rotation = view_rotation(vec3(normal(engine), normal(engine), normal(engine)));
+    const ShadowView spot = perspective_view(origin, near_m, rotation, 0.3f + 0.1f * float(i % 20));
+    const float along = least_of_points(box, origin, engine, [&](const vec3& p) { return (rotation * (p - origin)).z; });
+    ASSERT_NEAR(least_depth(spot, ViewsSpot, box.lo, box.hi), max(along, near_m), rounding) << "box " << i;
+
+    const ShadowView ortho = ortho_view(transpose(rotation)[2], box.lo, box.hi, 64, 2);
+    ASSERT_EQ(least_depth(ortho, ViewsOrtho, box.lo, box.hi), 1);
+  }
+  EXPECT_GT(cut_off, 100);
+}
+
+TEST(LeastDepths, TimesTheUnitTexelAreTexels) {
+  // A step of one texel there is one texel of clip space.
+  std::mt19937 engine(14);
+  std::normal_distribution<float> normal;
+  for (int i = 0; i < 300; ++i) {
+    const vec3 origin(normal(engine), normal(engine), normal(engine));
+    const mat3 rotation = i % 3 == 0 ? face_rotation(static_cast<uint>(i / 3 % 6))
+                                     : view_rotation(vec3(normal(engine), normal(engine), normal(engine)));
+    const mat3 axes = transpose(rotation);
+    const uint resolution = 16u << (i % 7);
+    const vec3 at = origin + axes[2] * (0.5f + static_cast<float>(i % 8));
+    const uint kind = i % 3 == 0 ? ViewsCube : i % 3 == 1 ? ViewsSpot : ViewsOrtho;
+    const ShadowView view = kind == ViewsOrtho ? ortho_view(axes[2], at - 2.0f, at + 2.0f, resolution, 2)
+                                               : perspective_view(origin, 0.02f, rotation, kind == ViewsCube ? 1 : 0.4f);
+    const vec3 step = axes[0] * unit_texel_m(view, kind, resolution) * least_depth(view, kind, at, at);
+    const vec4 here = view_clip_position(view, at), there = view_clip_position(view, at + step);
+    const float texels = (there.x / there.w - here.x / here.w) * static_cast<float>(resolution) / 2;
+    ASSERT_NEAR(texels, 1, 1e-4f * static_cast<float>(resolution) / 16) << kind;
+  }
 }
 
 TEST(OrthoFits, HoldTheBoxAndTheGuardOnWholeTexels) {
