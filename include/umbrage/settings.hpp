@@ -104,7 +104,7 @@ struct FrameSettings {
   CasterCulling caster_culling = CasterCulling::receiver_grid;
   Writer writer = Writer::automatic;
   uint32_t merge_below = 128;                ///< Levels: coarser requests share the map of this one; small maps cost triangles. 4…8192.
-  uint32_t caster_error_percent = 100;       ///< Of a texel: how far simplified casters may lie off (MeshDesc::level_errors_m); 0: the finest ones. 0…400.
+  uint32_t caster_error_percent = 75;        ///< Of a texel: how far simplified casters may lie off (MeshDesc::level_errors_m); 0: the finest ones. 0…400.
   uint32_t min_resolution = 16;              ///< Texels along a map's side, a power of two, 4…8192. Less only where the budget is short.
   uint32_t max_resolution = 8192;            ///< Likewise; at least min_resolution. Fixed cubes have 16…1024.
   CascadeMode cascades = CascadeMode::none;
