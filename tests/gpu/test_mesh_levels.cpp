@@ -191,6 +191,16 @@ TEST_F(MeshLevels, MayBeMissing) {
   const uint64_t some = rig.settle(off_by(100)).statistics.triangles_drawn;
   EXPECT_GT(some, 0u);
   EXPECT_GT(rig.settle(off_by(400)).statistics.triangles_drawn, some);
+  const CasterTables tables(rig);
+  ASSERT_FALSE(tables.casters.empty());
+  for (size_t i = 0; i < tables.casters.size(); ++i) {
+    if (tables.casters[i].instance == shared::NoIndex) continue;
+    const shared::Box &box = tables.instances[tables.casters[i].instance].box, &batch = tables.boxes[i];
+    const glm::vec3 slack(1e-4f);
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(box.lo, batch.lo + slack)) &&
+                glm::all(glm::lessThanEqual(batch.hi - slack, box.hi)))
+        << "caster " << i;
+  }
 }
 
 TEST_F(MeshLevels, KnowHowMuchTransformsStretch) {
