@@ -24,10 +24,8 @@ struct Simplifier {
   std::vector<glm::vec3> positions;
   std::vector<uint32_t> indices;
   std::vector<uint32_t> vertices;  ///< Of the mesh, by position.
-  std::vector<uint32_t> simpler;   ///< Room for a result.
 
-  Simplifier(std::span<const glm::vec3> all, std::span<const uint32_t> triangles)
-      : indices(triangles.size()), simpler(triangles.size()) {
+  Simplifier(std::span<const glm::vec3> all, std::span<const uint32_t> triangles) : indices(triangles.size()) {
     std::vector<glm::vec3> plain(all.begin(), all.end());
     for (glm::vec3& position : plain) position += glm::vec3(0);  // -0 becomes 0: bits are compared.
     std::vector<uint32_t> welded(plain.size());
@@ -40,10 +38,11 @@ struct Simplifier {
   }
   float extent() const { return meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(glm::vec3)); }
   /// About so many indices, or more.
-  std::span<const uint32_t> simplify(size_t count) {
-    const size_t made = meshopt_simplify(simpler.data(), indices.data(), indices.size(), &positions[0].x,
-                                         positions.size(), sizeof(glm::vec3), count, LargestError, 0, nullptr);
-    return {simpler.data(), made};
+  std::vector<uint32_t> simplify(size_t count, unsigned options) const {
+    std::vector<uint32_t> simpler(indices.size());
+    simpler.resize(meshopt_simplify(simpler.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
+                                    sizeof(glm::vec3), count, LargestError, options, nullptr));
+    return simpler;
   }
 };
 
@@ -62,7 +61,9 @@ DetailLevels make_detail_levels(std::span<const glm::vec3> positions, std::span<
   const SurfaceTree surface(simplifier.positions, simplifier.indices);
   const float least = LeastError * simplifier.extent();
   for (size_t before = indices.size(); before > MostUnsimplifiedIndices;) {
-    const std::span<const uint32_t> level = simplifier.simplify(before / 6 * 3);
+    // Borders that stay keep surfaces in shape and meshes together, and end up as all that is left.
+    std::vector<uint32_t> level = simplifier.simplify(before / 6 * 3, meshopt_SimplifyLockBorder);
+    if (level.size() > before / 4 * 3) level = simplifier.simplify(before / 6 * 3, 0);
     if (level.empty() || level.size() > before / 4 * 3) break;
     before = level.size();
     const float error = std::max(sampled_distance(simplifier.positions, simplifier.indices, surface, level), least);
