@@ -178,6 +178,19 @@ def stages(program):
         row([scene, *(f"{time:.1f}" for time in known), f"{sum(passes.values()) - sum(known):.1f}"])
 
 
+def levels(program):
+    table("Levels of detail, default without and with them, 640×360",
+          ["Scene", "triangles, M", "with", "rasterize, ms", "with", "frame, ms", "with", "frame without / with", "wrong outside 3 pixels, %", "with"])
+    for scene in LARGE:
+        choices = [["--set", "caster_error_percent=0"], []]
+        takes = [[program.run("render", scene, [*SMALL, "--frames", "3", *choice], take) for choice in choices] for take in range(5)]
+        frames = [min((one[i] for one in takes), key=lambda stats: stats["frame_ms"]) for i in range(2)]
+        raster = [min(one[i]["passes"].get("rasterize triangles", 0) for one in takes) for i in range(2)]
+        wrong = [program.run("compare", scene, [*SMALL, *choice])["wrong_outside_band"] for choice in choices]
+        pairs = [[millions(stats["triangles_drawn"]) for stats in frames], [f"{ms:.0f}" for ms in raster], [f"{stats['frame_ms']:.0f}" for stats in frames]]
+        row([scene, *(cell for pair in pairs for cell in pair), f"{frames[0]['frame_ms'] / frames[1]['frame_ms']:.2f}", *map(percent, wrong)])
+
+
 def recording(program):
     lights = ["16", "64", "256", "1024", "4096"]
     table("CPU time of recording, ms, builtin:houses-lod with random lights, 320×180, the quickest of five runs", ["Preset", *lights, "4096 / 16"])
@@ -196,7 +209,7 @@ def writers(program):
         row([scene, millions(takes["compute"][0]["triangles_drawn"]), f"{ms['compute']:.0f}", f"{ms['fragments']:.0f}", f"{ms['fragments'] / ms['compute']:.2f}"])
 
 
-TABLES = [triangles, texels, bounds, needs, errors, presets, starved, times, stages, recording, writers]
+TABLES = [triangles, texels, bounds, needs, errors, presets, starved, times, stages, levels, recording, writers]
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("program")
