@@ -367,7 +367,7 @@ uint32_t ShadowSystem::State::shader_store() const {
 /// A box of CameraDesc::other_receivers_ws.
 bool is_sound(const Aabb& box) {
   const float sides[3][2] = {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}};
-  return std::all_of(std::begin(sides), std::end(sides), [](const float(&side)[2]) {
+  return std::all_of(std::begin(sides), std::end(sides), [](const float (&side)[2]) {
     return std::isfinite(side[0]) && std::isfinite(side[1]) && side[0] <= side[1];
   });
 }

@@ -1,4 +1,4 @@
-// One file per mesh, named by its key. What a file says is believed only after open_prepared has checked it.
+// One file per mesh, named by its key. What a file says is believed only after open_prepared or detail_levels_of has checked it.
 #include "import/batch_cache.hpp"
 
 #include <unistd.h>
@@ -14,6 +14,8 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "import/meshoptimizer_library.hpp"
 
 namespace app {
 namespace {
@@ -101,14 +103,19 @@ DetailLevels BatchCache::levels(std::span<const glm::vec3> positions, std::span<
   if (folder_.empty() || indices.size() <= MostUnsimplifiedIndices) return make_detail_levels(positions, indices);
   const uint64_t key = detail_levels_key(positions, indices);
   const fs::path file = folder_ / file_name(key, LevelsExtension);
-  if (const auto kept = read(file, most_bytes(2 * indices.size()))) {
-    if (auto levels = detail_levels_of(*kept, key, positions.size(), indices)) {
-      found(file);
-      return std::move(*levels);
+  try {
+    // All coarser levels have at most three times the triangles of the finest, in a quarter of the bytes of its batches.
+    if (const auto kept = read(file, most_bytes(2 * indices.size()))) {
+      if (auto levels = detail_levels_of(*kept, key, positions.size(), indices)) {
+        found(file);
+        return std::move(*levels);
+      }
     }
-  }
+  } catch (const std::bad_alloc&) {}  // Made anew.
   DetailLevels made = make_detail_levels(positions, indices);
-  store(file, bytes_of(made, key));
+  try {
+    if (made.errors_m.size() > 1 || meshoptimizer_library()) store(file, bytes_of(made, key));
+  } catch (const std::bad_alloc&) {}  // Not kept.
   return made;
 }
 

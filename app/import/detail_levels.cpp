@@ -1,5 +1,5 @@
-// Simplified by meshoptimizer, measured by samples: the simplifier's own estimate is a mean, and half of the levels of hall are off
-// by 1.5 times as much somewhere.
+// Simplified by meshoptimizer, measured by samples: the simplifier's own estimate is a mean, and surfaces are off by twice as much
+// somewhere.
 #include "import/detail_levels.hpp"
 
 #include <meshoptimizer.h>
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "import/meshoptimizer_library.hpp"
 #include "import/surface_distance.hpp"
 #include "umbrage/prepare.hpp"
 
@@ -21,26 +22,30 @@ constexpr float LeastError = 1e-6f;   ///< Likewise: what roundings may make of 
 /// Vertices that differ only in what shadows do not see are one: the simplifier keeps those where many meet, even when all but one
 /// of them are unused.
 struct Simplifier {
+  const MeshoptimizerLibrary& library;
   std::vector<glm::vec3> positions;
   std::vector<uint32_t> indices;
   std::vector<uint32_t> vertices;  ///< Of the mesh, by position.
 
-  Simplifier(std::span<const glm::vec3> all, std::span<const uint32_t> triangles) : indices(triangles.size()) {
+  Simplifier(const MeshoptimizerLibrary& loaded, std::span<const glm::vec3> all, std::span<const uint32_t> triangles)
+      : library(loaded), indices(triangles.size()) {
     std::vector<glm::vec3> plain(all.begin(), all.end());
     for (glm::vec3& position : plain) position += glm::vec3(0);  // -0 becomes 0: bits are compared.
     std::vector<uint32_t> welded(plain.size());
-    positions.resize(meshopt_generateVertexRemap(welded.data(), triangles.data(), triangles.size(), plain.data(),
-                                                 plain.size(), sizeof(glm::vec3)));
+    positions.resize(library.generate_vertex_remap(welded.data(), triangles.data(), triangles.size(), plain.data(),
+                                                   plain.size(), sizeof(glm::vec3)));
     vertices.resize(positions.size());
-    meshopt_remapVertexBuffer(positions.data(), plain.data(), plain.size(), sizeof(glm::vec3), welded.data());
-    meshopt_remapIndexBuffer(indices.data(), triangles.data(), triangles.size(), welded.data());
-    for (size_t i = 0; i < triangles.size(); ++i) vertices[indices[i]] = triangles[i];
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      indices[i] = welded[triangles[i]];
+      positions[indices[i]] = plain[triangles[i]];
+      vertices[indices[i]] = triangles[i];
+    }
   }
-  float extent() const { return meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(glm::vec3)); }
+  float extent() const { return library.simplify_scale(&positions[0].x, positions.size(), sizeof(glm::vec3)); }
   /// About so many indices, or more.
   std::vector<uint32_t> simplify(size_t count, unsigned options) const {
     std::vector<uint32_t> simpler(indices.size());
-    simpler.resize(meshopt_simplify(simpler.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
+    simpler.resize(library.simplify(simpler.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
                                     sizeof(glm::vec3), count, LargestError, options, nullptr));
     return simpler;
   }
@@ -57,7 +62,9 @@ DetailLevels one_detail_level(std::span<const uint32_t> indices) {
 DetailLevels make_detail_levels(std::span<const glm::vec3> positions, std::span<const uint32_t> indices) {
   DetailLevels levels = one_detail_level(indices);
   if (indices.size() <= MostUnsimplifiedIndices) return levels;
-  Simplifier simplifier(positions, indices);
+  const MeshoptimizerLibrary* library = meshoptimizer_library();
+  if (!library) return levels;
+  Simplifier simplifier(*library, positions, indices);
   const SurfaceTree surface(simplifier.positions, simplifier.indices);
   const float least = LeastError * simplifier.extent();
   for (size_t before = indices.size(); before > MostUnsimplifiedIndices;) {
@@ -84,7 +91,7 @@ namespace {
 
 /// A file: this header, the errors, where levels begin and end, the indices of all levels but the finest.
 struct Header {
-  uint32_t version = 1;
+  uint32_t version = 2 + (MESHOPTIMIZER_VERSION << 8);  ///< Raised when levels are made otherwise.
   uint32_t levels = 0;
   uint64_t key = 0;
   uint64_t hash = 0;  ///< Of what follows.

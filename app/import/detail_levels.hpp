@@ -23,8 +23,8 @@ struct DetailLevels {
 /// A mesh without coarser levels.
 DetailLevels one_detail_level(std::span<const uint32_t> indices);
 
-/// positions: mesh space; indices: a triangle list. Each level has half of the triangles of the one before, as far as the
-/// simplifier gets; its error is measured at samples (surface_distance.hpp). Small meshes have one level. Deterministic.
+/// positions: mesh space; indices: a triangle list. Each level has about half of the triangles of the one before, three quarters at
+/// most; its error is measured at samples (surface_distance.hpp). Small meshes, and all where meshoptimizer is not installed, have one level. Deterministic.
 DetailLevels make_detail_levels(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
 
 /// A name for the levels of a mesh: a hash of what make_detail_levels is given.

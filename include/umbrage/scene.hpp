@@ -18,7 +18,7 @@ struct Stream {
   uint32_t stride_bytes = 12;
 };
 
-/// Of levels of detail at most.
+/// A mesh has no more levels of detail.
 inline constexpr uint32_t MaxMeshLevels = 16;
 
 /// A range of a mesh's triangles with one alpha mask.
@@ -44,6 +44,7 @@ struct MeshDesc {
   /// level to level; up to MaxMeshLevels. Empty = one level. A map of the page pool and the other virtual stores gets the
   /// coarsest level that is off by FrameSettings::caster_error_percent of its texel at most where the instance is nearest to
   /// the light; instances with a deformed stream, fixed cubes and cascades get the finest.
+  /// A level that no submesh is part of has no triangles.
   std::span<const float> level_errors_m;
   std::span<const std::byte> prepared;   ///< From prepare_mesh (prepare.hpp) for the same triangles; empty = prepared here.
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scene/scene_push.shared.h"
 
@@ -43,7 +42,7 @@ float stretch_of(const float* m) {
   for (int i = 0; i < 3; ++i) {
     float sum = 0;
     for (int j = 0; j < 3; ++j) sum += std::abs(m[i] * m[j] + m[4 + i] * m[4 + j] + m[8 + i] * m[8 + j]);
-    most = std::max(most, sum);
+    most = sum <= 1e30f ? std::max(most, sum) : 1e30f;
   }
   return std::sqrt(most);
 }
@@ -80,7 +79,7 @@ void GpuScene::fill(Instance& instance, const Mesh& mesh) const {
   record.light_mask = instance.desc.light_mask;
   record.flags = instance.desc.mobility == Mobility::fixed ? shared::InstanceIsFixed : 0;
   record.box = world_box(m, mesh.bounds);
-  record.stretch = instance.desc.deformed.address ? std::numeric_limits<float>::infinity() : stretch_of(m);
+  record.stretch = instance.desc.deformed.address ? shared::NoLevels : stretch_of(m);
 }
 
 Result<void> GpuScene::ensure_buffers() {

@@ -37,14 +37,15 @@ std::string check_stream(const Stream& stream, uint32_t floats, const char* name
 
 /// MeshDesc::level_errors_m, and the submeshes' levels of it.
 std::string check_levels(const MeshDesc& desc) {
+  constexpr float kLeastError = std::numeric_limits<float>::min();  // Devices may take less for 0.
   const std::span<const float> errors = desc.level_errors_m;
   if (errors.size() > MaxMeshLevels)
     return "MeshDesc::level_errors_m: " + std::to_string(errors.size()) + " levels; no more than " +
            std::to_string(MaxMeshLevels);
   for (size_t i = 0; i < errors.size(); ++i) {
-    if (i == 0 ? errors[i] == 0 : errors[i] > errors[i - 1] && std::isfinite(errors[i])) continue;
+    if (i == 0 ? errors[i] == 0 : errors[i] > errors[i - 1] && errors[i] >= kLeastError && errors[i] < shared::NoLevels) continue;
     return "MeshDesc::level_errors_m: level " + std::to_string(i) + " is " + std::to_string(errors[i]) +
-           "; the first must be 0, each other finite and more than the one before";
+           "; the first must be 0, each other more than the one before and less than 1e30";
   }
   for (size_t i = 0; i < desc.submeshes.size(); ++i) {
     const Submesh& submesh = desc.submeshes[i];
@@ -91,7 +92,7 @@ Result<void> GpuScene::make_batches(const MeshDesc& desc, const PreparedMesh& pr
     record.alpha_factor = submesh.alpha_factor;
     const size_t beyond = size_t{submesh.last_level} + 1;  // Hosts may say UINT32_MAX.
     record.least_error_m = submesh.first_level < errors.size() ? errors[submesh.first_level] : 0.0f;
-    record.end_error_m = beyond < errors.size() ? errors[beyond] : kInfinite;
+    record.end_error_m = beyond < errors.size() ? errors[beyond] : shared::NoLevels;
     mesh.bounds = united(mesh.bounds, batch.bounds);
     mesh.masked = mesh.masked || submesh.mask.value;
     for (uint32_t i = 0; i < record.index_count; ++i) {

@@ -49,9 +49,12 @@ struct InstanceRecord {
   uint light_mask;
   uint flags;              // InstanceIsFixed
   Box box;                 // world space, of all levels
-  float stretch;           // lengths of the mesh are at most so many times as long in the world; infinite: deformed
+  float stretch;           // lengths of the mesh are at most so many times as long in the world; NoLevels: deformed
 };
 UMB_ASSERT_SIZE(InstanceRecord, 112);
+
+/// InstanceRecord::stretch of deformed instances, and the end of the coarsest level's errors: more than any.
+UMB_CONST float NoLevels = 1e30f;
 
 /// Mobility::fixed.
 UMB_CONST uint InstanceIsFixed = 1u;
@@ -67,7 +70,7 @@ struct BatchRecord {
   float alpha_factor;
   uint index_count;
   float least_error_m;     // mesh space: drawn where the surface may be off by least_error_m …
-  float end_error_m;       // … and not where it may be by end_error_m; 0 … infinity: always
+  float end_error_m;       // … and not where it may be by end_error_m; 0 … NoLevels: always
 };
 UMB_ASSERT_SIZE(BatchRecord, 56);
 
@@ -90,7 +93,7 @@ UMB_ASSERT_SIZE(TreeShape, 56);
 
 /// Of the levels of detail of an instance's batches one is drawn: the coarsest that is off by no more than error_ws metres.
 UMB_FN bool is_at_level(BatchRecord batch, InstanceRecord instance, float error_ws) {
-  float error_m = error_ws / instance.stretch;
+  float error_m = min(error_ws / instance.stretch, 0.5f * NoLevels);
   return error_m >= batch.least_error_m && error_m < batch.end_error_m;
 }
 /// The finest level.
